@@ -13,28 +13,28 @@
 namespace veldt {
 namespace {
 
-constexpr std::size_t kMostNights = 4;  ///< whose materials are listed
+constexpr std::size_t kMostConditions = 4;  ///< whose materials are listed
 
 void print_materials(const thermal::SceneOutline& outline) {
-  for (std::size_t k = 0; k < std::min(outline.nights.size(), kMostNights); ++k) {
-    const thermal::SceneOutline::Night& night = outline.nights[k];
-    if (night.looks.empty()) continue;
-    const auto nearest = std::min_element(night.looks.begin(), night.looks.end(),
+  for (std::size_t k = 0; k < std::min(outline.conditions.size(), kMostConditions); ++k) {
+    const thermal::SceneOutline::Conditions& viewing = outline.conditions[k];
+    if (viewing.view_directions.empty()) continue;
+    const auto nearest = std::min_element(viewing.view_directions.begin(), viewing.view_directions.end(),
                                           [](const auto& a, const auto& b) { return a.range_m < b.range_m; });
-    const bool inverted = night.weather.air.inversion_k > 0;
+    const bool inverted = viewing.weather.air.inversion_k > 0;
     print("\nair at {:.5g} K, humidity {:.2g}, range {:.0f} m [mK]\n{:<16}{:>10}{:>10}{}\n",
-          night.weather.air.temperature_k, night.weather.air.relative_humidity, nearest->range_m, "", "sky",
+          viewing.weather.air.temperature_k, viewing.weather.air.relative_humidity, nearest->range_m, "", "sky",
           "path", inverted ? ", of it inversion" : "");
     for (const thermal::SceneOutline::Cover& cover : outline.covers) {
-      const thermal::MaterialShift shift = thermal::shift_of(*cover.material, night, nearest->range_m,
-                                                             night.response.value_or(outline.response));
+      const thermal::MaterialShift shift = thermal::shift_of(*cover.material, viewing, nearest->range_m,
+                                                             viewing.response.value_or(outline.response));
       print("{:<16}{:>+10.0f}{:>+10.0f}", cover.material->name, 1e3 * shift.sky_k, 1e3 * shift.path_k);
       if (inverted) print("{:>+17.0f}", 1e3 * shift.inversion_k);
       print("\n");
     }
   }
-  if (outline.nights.size() > kMostNights)
-    print("\nand {} more, of other clips\n", outline.nights.size() - kMostNights);
+  if (outline.conditions.size() > kMostConditions)
+    print("\nand {} more, of other clips\n", outline.conditions.size() - kMostConditions);
 }
 
 void print_budget(const thermal::Budget& budget, const thermal::SceneOutline& outline) {

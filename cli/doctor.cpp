@@ -68,7 +68,7 @@ std::string describe(const thermal::Cores& cores) {
   return text;
 }
 
-std::vector<Finding> look() {
+std::vector<Finding> find_all() {
   std::vector<Finding> findings = {{"veldt", std::string(thermal::kVersion), ""}, find_home()};
   findings.push_back({"cores", describe(thermal::find_cores()), ""});
   findings.push_back(find_blender_engine());
@@ -99,7 +99,7 @@ std::string text_of(const Finding& finding) {
 }
 
 int run_doctor(bool json) {
-  const std::vector<Finding> findings = look();
+  const std::vector<Finding> findings = find_all();
   thermal::Json report = thermal::Json::array();
   for (const Finding& finding : findings) {
     if (!json) print("{:<20} {}\n", finding.what, text_of(finding));

@@ -91,7 +91,7 @@ void print_features(const thermal::Fit& fit, bool of_targets) {
   for (const thermal::FittedFeature& one : fit.features) {
     if (one.of_targets != of_targets) continue;
     print("  {:<36} {:>8} {:>8} {:>8} {:>7.2f} {:>6.2f} {:>6.2f}{}\n", one.name, median_text(one.real),
-          median_text(one.before), median_text(one.after), one.told_before, one.told_after, one.told_halves,
+          median_text(one.before), median_text(one.after), one.separation_before, one.separation_after, one.separation_of_halves,
           one.is_unlike() ? "  !" : "");
   }
 }
@@ -136,9 +136,9 @@ thermal::Json fit_json(const thermal::Fit& fit) {
                         {"real", known(one.real)},
                         {"before", known(one.before)},
                         {"after", known(one.after)},
-                        {"auc_before", one.told_before},
-                        {"auc_after", one.told_after},
-                        {"auc_halves", one.told_halves},
+                        {"auc_before", one.separation_before},
+                        {"auc_after", one.separation_after},
+                        {"auc_halves", one.separation_of_halves},
                         {"fitted", !one.is_unlike()}});
   }
   const auto forest = [](const thermal::FittedForest& one) -> thermal::Json {

@@ -12,7 +12,7 @@
 #include "dataset/plan/plan_folder.h"
 #include "dataset/stream/live_stream.h"
 #include "io/assets.h"
-#include "io/system/passing_folder.h"
+#include "io/system/temporary_folder.h"
 
 namespace veldt {
 namespace {
@@ -75,7 +75,7 @@ std::string words_of(const thermal::StreamedClip& clip) {
 int run_stream(const StreamArguments& options, const CommonOptions& common) {
   thermal::LiveStreamOptions request = request_of(options);
   watch_for_stop();
-  std::optional<thermal::PassingFolder> folder;
+  std::optional<thermal::TemporaryFolder> folder;
   if (!std::filesystem::is_directory(options.config)) {
     folder.emplace();
     request.plan = folder->path() / "plan";

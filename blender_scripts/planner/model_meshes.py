@@ -17,7 +17,7 @@ from .bake import arrays
 from .config import ROOT
 from .faults import ConfigError, ProcessLost
 from .geometry.shapes import Mesh
-from .workers import die_with
+from .workers import end_with
 
 FORMAT, VERSION = "veldt-model", 1
 _SCRIPT = ROOT / "blender_scripts" / "import_model.py"
@@ -77,7 +77,7 @@ class ModelMeshes:
             capture_output=True,
             text=True,
             check=False,
-            preexec_fn=partial(die_with, os.getpid()),
+            preexec_fn=partial(end_with, os.getpid()),
         )
         answer = next((line for line in done.stdout.splitlines() if line.startswith("{")), None)
         if done.returncode == _CONFIG_FAULT and answer is not None:

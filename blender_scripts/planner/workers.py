@@ -135,7 +135,7 @@ def _multiprocessing():
     return multiprocessing.get_context("fork")
 
 
-def die_with(parent: int) -> None:
+def end_with(parent: int) -> None:
     """Have the kernel kill this process when its parent ends."""
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     if os.getppid() != parent:  # it has ended already
@@ -144,7 +144,7 @@ def die_with(parent: int) -> None:
 
 def _serve(act: Callable, items: Sequence, connection, parent: int) -> None:
     """A worker's loop: call `act` on request until the end."""
-    die_with(parent)
+    end_with(parent)
     while True:
         number, part = connection.recv()
         try:

@@ -19,7 +19,7 @@ from scenes import tiny
 from planner.config import ROOT
 from planner.failures import failure_of
 from planner.faults import ConfigError, ProcessLost
-from planner.workers import Cores, die_with, in_order
+from planner.workers import Cores, end_with, in_order
 
 SCRIPT = ROOT / "blender_scripts" / "plan_scene.py"
 
@@ -127,7 +127,7 @@ def test_slow_and_large_results_come_in_order():
 def test_a_process_whose_parent_ended_before_it_asked_ends():
     process = os.fork()
     if process == 0:
-        die_with(os.getpid())  # not the parent
+        end_with(os.getpid())  # not the parent
         os._exit(0)  # pylint: disable=protected-access
     assert os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]) == -signal.SIGKILL
 

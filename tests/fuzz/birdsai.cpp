@@ -4,7 +4,7 @@
 #include "fuzz/targets.h"
 
 void fuzz::birdsai(Bytes bytes) {
-  static const TemporaryFolder folder;
+  static const TestFolder folder;
   std::filesystem::create_directory(folder / "annotations");
   (void)folder.file("annotations/video.csv", text_of(bytes));
   tolerate([] { demand_consistent(thermal::read_birdsai(folder.path())); });

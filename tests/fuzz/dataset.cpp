@@ -60,7 +60,7 @@ class Place {
   }
 
  private:
-  TemporaryFolder folder_;
+  TestFolder folder_;
   int descriptor_;
 };
 

@@ -19,7 +19,7 @@ thermal::LabelSet small_truth() {
 
 /// The bytes as results of the first picture, or of all if they are JSON.
 std::filesystem::path results_of(Bytes bytes) {
-  static const TemporaryFolder folder;
+  static const TestFolder folder;
   const std::string_view text = text_of(bytes);
   if (text.starts_with('[') || text.starts_with('{')) return as_file(bytes, "results.json");
   (void)folder.file("video_0.txt", text);

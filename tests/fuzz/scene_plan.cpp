@@ -31,7 +31,7 @@ class PlanFolder {
     return input.contains(name) ? input[name].dump(-1, ' ', false, Json::error_handler_t::replace) : "";
   }
 
-  TemporaryFolder folder_;
+  TestFolder folder_;
 };
 
 void demand_sound(const PlannedDataset& dataset) {

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 /// What a fuzz target is given.
 using Bytes = std::span<const std::uint8_t>;
@@ -34,6 +34,6 @@ void tolerate(const Read& read) {
 /// Writes the bytes to a file of this name, overwriting the last. It is in TMPDIR; on a tmpfs this costs
 /// microseconds.
 inline std::filesystem::path as_file(Bytes bytes, const std::string& name) {
-  static const TemporaryFolder folder;
+  static const TestFolder folder;
   return folder.file(name, text_of(bytes));
 }

@@ -1,4 +1,4 @@
-// Races on purpose. ThreadSanitizer must report each of them: what base/hand_over.h says to it must not hide any.
+// Races on purpose. ThreadSanitizer must report each of them: what base/happens_before.h says to it must not hide any.
 
 #include <atomic>
 #include <chrono>

@@ -78,13 +78,13 @@ class Search {
                      .elastic = true};
     for (std::size_t begin = 0; begin < order.size(); begin += kVideosABlock) {
       const std::size_t end = std::min(begin + kVideosABlock, order.size());
-      for (std::size_t place = begin; place < end; ++place) shape.parts[order[place]] = VideoPart::whole;
+      for (std::size_t index = begin; index < end; ++index) shape.parts[order[index]] = VideoPart::whole;
       const BalanceModel model = make_model(program_, shape);
       const SolverResult solved = solve(model.program, {.time_s = deadline_.left_s(), .nodes = kBlockNodes});
       if (solved.values.empty()) return;
-      for (std::size_t place = begin; place < end; ++place) {
-        shape.start[order[place]] = model.frames_in(solved.values, order[place]);
-        shape.parts[order[place]] = VideoPart::fixed;
+      for (std::size_t index = begin; index < end; ++index) {
+        shape.start[order[index]] = model.frames_in(solved.values, order[index]);
+        shape.parts[order[index]] = VideoPart::fixed;
       }
     }
     keep_better(std::move(shape.start));

@@ -15,9 +15,9 @@ struct BetweenNodes {
 
 /// @param place  in steps from the first node; clamped to the nodes
 /// @param nodes  at least 1
-[[nodiscard]] inline BetweenNodes between_nodes(double place, std::size_t nodes) noexcept {
+[[nodiscard]] inline BetweenNodes between_nodes(double position, std::size_t nodes) noexcept {
   const auto last = static_cast<double>(nodes - 1);
-  const double inside = std::clamp(place, 0.0, last);
+  const double inside = std::clamp(position, 0.0, last);
   const double low = std::min(std::floor(inside), std::max(last - 1, 0.0));
   const auto number = static_cast<std::size_t>(low);
   return {.low = number, .high = std::min(number + 1, nodes - 1), .share_of_high = inside - low};

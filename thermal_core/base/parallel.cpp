@@ -5,7 +5,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "base/hand_over.h"
+#include "base/happens_before.h"
 
 namespace thermal {
 

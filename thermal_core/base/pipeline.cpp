@@ -5,7 +5,7 @@
 
 #include <oneapi/tbb/parallel_pipeline.h>
 
-#include "base/hand_over.h"
+#include "base/happens_before.h"
 
 namespace thermal {
 namespace {
@@ -40,7 +40,7 @@ class Pipeline {
   }
 
   /// Orders the stages of an item, and its last stage before the entry of the item that reuses the slot.
-  HandOver& slot(std::size_t item) { return slots_[item % slots_.size()]; }
+  HappensBefore& slot(std::size_t item) { return slots_[item % slots_.size()]; }
 
   std::size_t next(tbb::flow_control& control) {
     const DividedWork::Part part(whole_);
@@ -63,9 +63,9 @@ class Pipeline {
   const std::function<bool(std::size_t)>& enter_;
   const std::vector<PipelineStage>& stages_;
   DividedWork whole_;
-  HandOver entrance_;
-  std::vector<HandOver> in_order_;  ///< of each stage
-  std::vector<HandOver> slots_;
+  HappensBefore entrance_;
+  std::vector<HappensBefore> in_order_;  ///< of each stage
+  std::vector<HappensBefore> slots_;
   std::size_t next_item_ = 0;
 };
 

@@ -43,7 +43,7 @@ void run_blender(const std::vector<std::string>& command, const ProfileTask& tas
   const ExitStatus status = process.wait();
   if (status.signal == 0 && status.code == 0) return;
   // The log's folder will be removed, so its last line is part of the message.
-  throw IoError(reported.empty() ? unreported_end(status, "measuring frames", last_words_in(log, 0))
+  throw IoError(reported.empty() ? unreported_end(status, "measuring frames", last_error_line_in(log, 0))
                                  : "Blender failed while measuring frames: " + reported);
 }
 

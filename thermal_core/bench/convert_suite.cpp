@@ -12,7 +12,7 @@
 #include "bench/measure.h"
 #include "bench/sensor_scene.h"
 #include "io/exr/passes_writer.h"
-#include "io/system/passing_folder.h"
+#include "io/system/temporary_folder.h"
 
 namespace thermal {
 namespace {
@@ -135,7 +135,7 @@ void add_rows(const BenchScene& scene, const MaterialLibrary& materials, const W
               const std::function<void(const std::string&)>& announce, std::vector<ConvertRow>& rows) {
   const std::string size =
       fmt::format("{} x {}", scene.manifest.camera.width_px, scene.manifest.camera.height_px);
-  const PassingFolder folder;
+  const TemporaryFolder folder;
   const ConvertJob job{.scene = scene,
                        .file = folder.path() / "000000.exr",
                        .materials = materials,

@@ -11,7 +11,7 @@
 #include "bench/engine_scenes.h"
 #include "bench/memory_rows.h"
 #include "bench/peak_memory.h"
-#include "io/system/passing_folder.h"
+#include "io/system/temporary_folder.h"
 
 namespace thermal {
 namespace {
@@ -146,7 +146,7 @@ class EnginesSuite {
   }
 
   const EnginesSuiteTask& task_;
-  PassingFolder folder_;
+  TemporaryFolder folder_;
   std::vector<Measured> measured_;
   std::vector<RenderRow> differing_;
 };

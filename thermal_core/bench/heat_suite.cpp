@@ -54,9 +54,9 @@ class Piece {
   Piece(const Materials& materials, const std::string& name)
       : heat_(materials.at(name)), soil_(std::get<GroundHeat>(materials.at("soil"))) {}
 
-  [[nodiscard]] SurfaceDay day(const SurfacePlace& place, const HeatSteps& steps) const {
+  [[nodiscard]] SurfaceDay day(const SurfaceExposure& exposure, const HeatSteps& steps) const {
     const std::vector<Forcing> forcing = forcing_of_day(weather_of(Season::winter).day, steps.per_day);
-    return day_of(heat_, soil_, place, {.forcing = forcing}, steps);
+    return day_of(heat_, soil_, exposure, {.forcing = forcing}, steps);
   }
 
  private:
@@ -138,22 +138,22 @@ std::vector<RenderRow> table_rows(const Materials& materials) {
 
 /// One of many exposures: slopes up to 35 deg, a third of them shaded, a quarter moist at random; or bodies in the open
 /// that face any direction.
-SurfacePlace place_of(int number, bool is_body) {
+SurfaceExposure exposure_of(int number, bool is_body) {
   std::array<float, kRandomBatch> random{};
   fill_uniform({.seed = 7, .stream = 0, .clip = 0, .frame = static_cast<std::uint32_t>(number)}, 0, random);
   const auto share = [&random](std::size_t which) { return static_cast<double>(random.at(which)); };
   constexpr double kPi = std::numbers::pi;
   const double slope = is_body ? std::acos(2 * share(0) - 1) : 35 * kPi / 180 * share(0);
   const double aspect = 2 * kPi * share(1);
-  SurfacePlace place = {
+  SurfaceExposure exposure = {
       .normal = {std::sin(slope) * std::sin(aspect), std::sin(slope) * std::cos(aspect), std::cos(slope)}};
-  if (is_body) return place;
+  if (is_body) return exposure;
   if (share(2) < 1.0 / 3) {
-    place.sky_view = 0.15 + 0.85 * share(3);
-    place.sunlit = share(4);
+    exposure.sky_view = 0.15 + 0.85 * share(3);
+    exposure.sunlit = share(4);
   }
-  if (share(5) < 0.25) place.moisture = share(6);
-  return place;
+  if (share(5) < 0.25) exposure.moisture = share(6);
+  return exposure;
 }
 
 /// Tables compared with the balance solved for each exposure.
@@ -168,20 +168,20 @@ std::vector<RenderRow> look_up_rows(const Materials& materials) {
     const auto& soil = std::get<GroundHeat>(materials.at("soil"));
     const SurfaceDay open = day_of(soil, soil, {.moisture = table.at(0).ground_moisture}, {forcing}, frames);
     const std::string_view kind = name;
-    std::vector<SurfacePlace> places;
+    std::vector<SurfaceExposure> exposures;
     std::vector<SurfaceDay> exact;
     for (int number = 0; number < kPlaces; ++number) {
-      places.push_back(place_of(number, kind == "rock"));
-      if (kind == "water") places.back().normal = {0, 0, 1};
-      exact.push_back(day_of(materials.at(name), soil, places.back(), {forcing, open.surface_k}, frames));
+      exposures.push_back(exposure_of(number, kind == "rock"));
+      if (kind == "water") exposures.back().normal = {0, 0, 1};
+      exact.push_back(day_of(materials.at(name), soil, exposures.back(), {forcing, open.surface_k}, frames));
     }
     RenderRow row = {.group = "look-up against the balance", .name = name, .figures = {}};
     for (const int hour : {3, 6, 9, 12, 18}) {
       const HeatOfMoment moment = table.at(hour, {name});
-      const MaterialMoment& by_place = moment.materials.at(name);
+      const MaterialMoment& by_exposure = moment.materials.at(name);
       Differences differences;
-      for (std::size_t i = 0; i < places.size(); ++i)
-        differences.add(by_place.temperature_k(places[i]) - exact[i].at_k(hour));
+      for (std::size_t i = 0; i < exposures.size(); ++i)
+        differences.add(by_exposure.temperature_k(exposures[i]) - exact[i].at_k(hour));
       row.figures.push_back({fmt::format("{:02}h rms mK", hour), differences.rms_mk()});
       row.figures.push_back({"worst", differences.worst_mk()});
     }

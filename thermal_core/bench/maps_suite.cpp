@@ -14,7 +14,7 @@
 #include "dataset/plan/planning.h"
 #include "io/bake/baked_files.h"
 #include "io/json/file.h"
-#include "io/system/passing_folder.h"
+#include "io/system/temporary_folder.h"
 #include "raycast/ground_light.h"
 #include "raycast/ray_caster.h"
 #include "scene/camera_geometry.h"
@@ -70,9 +70,9 @@ std::map<Square, double> squares_in(const BakedScene& scene, const RayCaster& ca
         const double along = pose[4 * axis] * static_cast<double>(rays.x().pixels()[k]) +
                              pose[4 * axis + 1] * static_cast<double>(rays.y().pixels()[k]) +
                              pose[4 * axis + 2];
-        const double place = (pose[4 * axis + 3] + depth_m * along + maps.size_m / 2) * cells_a_m;
-        inside = inside && place >= 0 && place < static_cast<double>(maps.cells - across);
-        if (inside) cell[axis] = static_cast<std::size_t>(place) / across * across;
+        const double position = (pose[4 * axis + 3] + depth_m * along + maps.size_m / 2) * cells_a_m;
+        inside = inside && position >= 0 && position < static_cast<double>(maps.cells - across);
+        if (inside) cell[axis] = static_cast<std::size_t>(position) / across * across;
       }
       if (inside) squares[{cell[1] * maps.cells + cell[0], across}] += 1;
     }
@@ -164,7 +164,7 @@ std::vector<Case> cases(const Assets& assets) {
 }  // namespace
 
 std::vector<RenderRow> run_maps_suite(const MapsSuiteTask& task) {
-  const PassingFolder folder;
+  const TemporaryFolder folder;
   return with_threads(task.threads, [&] {
     std::vector<RenderRow> rows;
     for (const Case& one : cases(task.assets)) rows.push_back(measured(one, folder.path(), task));

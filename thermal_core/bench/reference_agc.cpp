@@ -112,9 +112,9 @@ std::vector<double> ReferenceAgc::equalised(const std::vector<double>& temperatu
 
 double ReferenceAgc::level(double temperature_k, double radiance_share) const {
   if (is_equalising(parameters_.mode)) {
-    const double place = temperature_k / kBinK;
-    const auto bin = static_cast<std::size_t>(place);
-    return levels_[bin] + (place - static_cast<double>(bin)) * (levels_[bin + 1] - levels_[bin]);
+    const double position = temperature_k / kBinK;
+    const auto bin = static_cast<std::size_t>(position);
+    return levels_[bin] + (position - static_cast<double>(bin)) * (levels_[bin + 1] - levels_[bin]);
   }
   if (parameters_.mode == AgcMode::linear || parameters_.mode == AgcMode::percentile) {
     return kWhite * (temperature_k - low_k_) / (high_k_ - low_k_);

@@ -67,9 +67,9 @@ ReferenceClahe::Levels ReferenceClahe::equalised(const std::vector<double>& tile
 
 double ReferenceClahe::level(int column, int row, double temperature_k) const {
   const Levels& levels = levels_[static_cast<std::size_t>(row * parameters_.tiles_across + column)];
-  const double place = temperature_k / kTileBinK;
-  const auto bin = static_cast<std::size_t>(place);
-  return levels[bin] + (place - static_cast<double>(bin)) * (levels[bin + 1] - levels[bin]);
+  const double position = temperature_k / kTileBinK;
+  const auto bin = static_cast<std::size_t>(position);
+  return levels[bin] + (position - static_cast<double>(bin)) * (levels[bin + 1] - levels[bin]);
 }
 
 std::vector<int> ReferenceClahe::next(const std::vector<double>& temperatures_k) {

@@ -11,7 +11,7 @@
 #include "io/assets.h"
 #include "io/exr/passes.h"
 #include "io/json/file.h"
-#include "io/system/passing_folder.h"
+#include "io/system/temporary_folder.h"
 
 namespace thermal {
 namespace {
@@ -104,7 +104,7 @@ std::vector<RenderRow> process_rows(const RenderSuiteTask& task, const Path& fol
 }  // namespace
 
 std::vector<RenderRow> run_render_suite(const RenderSuiteTask& task) {
-  const PassingFolder folder;
+  const TemporaryFolder folder;
   std::vector<RenderRow> rows;
   for (const char* scene : {"demo", "savanna"}) {
     task.announce(fmt::format("{}, planning", scene));

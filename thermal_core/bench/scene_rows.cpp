@@ -142,11 +142,11 @@ BenchRow term_row(const std::string& name, const Terms& terms, const BenchScene&
 }
 
 /// Radiance of the small picture with a person at one of many subpixel positions.
-Plane<float> person_radiance(int factor, int place, const FrameConverter& converter) {
+Plane<float> person_radiance(int factor, int position, const FrameConverter& converter) {
   constexpr double kGolden = 0.6180339887498949;
   constexpr double kPlastic = 0.7548776662466927;
-  const double x_px = 16 + std::fmod(kGolden * place, 1.0);
-  const double y_px = 16 + std::fmod(kPlastic * place, 1.0);
+  const double x_px = 16 + std::fmod(kGolden * position, 1.0);
+  const double y_px = 16 + std::fmod(kPlastic * position, 1.0);
   return converter.convert(person_from_above(factor, x_px, y_px).passes).radiance_w_m2_sr;
 }
 
@@ -158,9 +158,9 @@ BenchRow supersample_row(int factor, const MaterialLibrary& materials) {
   const BandRadiance blackbody(flat_8_14_um());
   BenchRow row{.group = "supersampling of a person at 122 m", .name = std::to_string(factor) + " x"};
   ErrorStatistics errors;
-  for (int place = 0; place < kPlaces; ++place) {
-    const Plane<float> picture = person_radiance(factor, place, coarse);
-    const Plane<float> exact = person_radiance(kFinest, place, fine);
+  for (int position = 0; position < kPlaces; ++position) {
+    const Plane<float> picture = person_radiance(factor, position, coarse);
+    const Plane<float> exact = person_radiance(kFinest, position, fine);
     const float background = exact.at(0, 0);
     for (std::size_t i = 0; i < picture.size(); ++i) {
       if (exact.pixels()[i] == background) continue;

@@ -69,7 +69,7 @@ double smear_px(const TruthCase& measured) {
   return px_per_s(measured) * measured.preset.truth.time_constant_s;
 }
 
-TruthView view_of_place(const TruthCase& measured, int place) {
+TruthView view_at(const TruthCase& measured, int position) {
   constexpr double kGolden = 0.6180339887498949;
   constexpr double kPlastic = 0.7548776662466927;
   constexpr double kMarginPx = kSignalReachPx + 3;
@@ -80,8 +80,8 @@ TruthView view_of_place(const TruthCase& measured, int place) {
   TruthView view;
   view.width_px = static_cast<int>(left + std::ceil(right)) + 1;
   view.height_px = static_cast<int>(top + std::ceil(box.y + box.half_y + kMarginPx)) + 1;
-  view.shapes = placed(measured.target, px_per_m(measured), left + std::fmod(kGolden * (place + 0.5), 1.0),
-                       top + std::fmod(kPlastic * (place + 0.5), 1.0));
+  view.shapes = placed(measured.target, px_per_m(measured), left + std::fmod(kGolden * (position + 0.5), 1.0),
+                       top + std::fmod(kPlastic * (position + 0.5), 1.0));
   return view;
 }
 
@@ -164,8 +164,8 @@ TruthErrors shipped_errors(const TruthCase& measured, const ContrastKernel& stil
   const double ground =
       kTruthSoil.emissivity * truth_band_radiance(camera.begin_um, camera.end_um, kTruthSoil.temperature_k);
   ErrorSum sum(measured.preset.sensor.kelvin_per_count);
-  for (int place = 0; place < measured.places; ++place) {
-    const TruthView view = view_of_place(measured, place);
+  for (int position = 0; position < measured.places; ++position) {
+    const TruthView view = view_at(measured, position);
     const Plane<double> truth = true_radiance(kernel, view.shapes, ground, view.width_px, view.height_px);
     sum.add(measured, bounds_of(view.shapes), shipped_image_k(measured, view), apparent_k(measured, truth));
   }

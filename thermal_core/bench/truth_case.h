@@ -70,7 +70,7 @@ struct TruthView {
   int height_px = 0;
   std::vector<TruthShape> shapes;
 };
-[[nodiscard]] TruthView view_of_place(const TruthCase& measured, int place);
+[[nodiscard]] TruthView view_at(const TruthCase& measured, int position);
 
 /// Apparent temperature of each pixel, clipped to the range of the 16-bit frames.
 [[nodiscard]] Plane<double> apparent_k(const TruthCase& measured, const Plane<double>& radiance);

@@ -81,10 +81,10 @@ Quadrant lens_image(const std::vector<double>& by_radius, const TruthSteps& step
   for (std::size_t y = 0; y < rows; ++y) {
     const double dy = (static_cast<double>(y) + 0.5) / steps.lines_per_px;
     for (std::size_t x = 0; x < columns; ++x) {
-      const double place = kTruthRadiiPerPx * std::hypot(static_cast<double>(x) / steps.cells_per_px, dy);
-      const double floor = std::floor(place);
+      const double position = kTruthRadiiPerPx * std::hypot(static_cast<double>(x) / steps.cells_per_px, dy);
+      const double floor = std::floor(position);
       const auto at = std::min(static_cast<std::size_t>(floor), by_radius.size() - 2);
-      const double share = std::min(1.0, place - floor);
+      const double share = std::min(1.0, position - floor);
       image.row(y)[x] = (1 - share) * by_radius[at] + share * by_radius[at + 1];
     }
   }
@@ -260,12 +260,12 @@ double ContrastKernel::up_to(double x_px, int line) const noexcept {
   const auto down = static_cast<std::size_t>(line >= 0 ? line : -line - 1);
   if (down >= sums_.size() / columns_) return 0;
   const double* sums = row(down);
-  const double place = (x_px + steps_.radius_px) * steps_.cells_per_px;
-  if (place <= 0) return 0;
+  const double position = (x_px + steps_.radius_px) * steps_.cells_per_px;
+  if (position <= 0) return 0;
   const std::size_t last = columns_ - 1;
-  if (place >= static_cast<double>(last)) return sums[last];
-  const auto at = static_cast<std::size_t>(place);
-  const std::array<double, 4> cubic = cubic_weights(place - std::floor(place));
+  if (position >= static_cast<double>(last)) return sums[last];
+  const auto at = static_cast<std::size_t>(position);
+  const std::array<double, 4> cubic = cubic_weights(position - std::floor(position));
   return cubic[0] * sums[at == 0 ? 0 : at - 1] + cubic[1] * sums[at] + cubic[2] * sums[at + 1] +
          cubic[3] * sums[std::min(at + 2, last)];
 }

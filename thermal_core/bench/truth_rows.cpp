@@ -21,8 +21,8 @@ using TruthImage = std::function<Plane<double>(const TruthView& view)>;
 RenderRow row_of(const std::string& group, const std::string& name, const TruthCase& measured,
                  const TruthImage& image_k, const TruthImage& truth_k, double kelvin_per_count = 0) {
   ErrorSum sum(kelvin_per_count);
-  for (int place = 0; place < measured.places; ++place) {
-    const TruthView view = view_of_place(measured, place);
+  for (int position = 0; position < measured.places; ++position) {
+    const TruthView view = view_at(measured, position);
     sum.add(measured, bounds_of(view.shapes), image_k(view), truth_k(view));
   }
   const TruthErrors errors = sum.errors();

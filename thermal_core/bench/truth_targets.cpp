@@ -50,9 +50,9 @@ double from_lines(const ContrastKernel& kernel, const std::vector<std::vector<Tr
 /// Response to a ray, per px^2, at an offset from a pixel: the kernel itself, whose rows are beside the ray's.
 double of_ray(const ContrastKernel& kernel, double dx_px, double dy_px) {
   constexpr double kHalf = 1.0 / 64;  // of a short stretch instead of a point
-  const double place = -dy_px * kernel.steps().lines_per_px - 0.5;
-  const auto line = static_cast<int>(std::floor(place));
-  const double share = place - std::floor(place);
+  const double position = -dy_px * kernel.steps().lines_per_px - 0.5;
+  const auto line = static_cast<int>(std::floor(position));
+  const double share = position - std::floor(position);
   const TruthStretch stretch = {-kHalf, kHalf, 1};
   return ((1 - share) * of_stretch(kernel, dx_px, stretch, line) +
           share * of_stretch(kernel, dx_px, stretch, line + 1)) /

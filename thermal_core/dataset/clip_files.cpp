@@ -35,8 +35,8 @@ class LabelsReader {
  public:
   explicit LabelsReader(const Path& file) : file_(file.string()) {}
 
-  void take(const std::string& list, std::size_t place, const Json& json) {
-    const JsonEntry entry(json, file_, list, place);
+  void take(const std::string& list, std::size_t index, const Json& json) {
+    const JsonEntry entry(json, file_, list, index);
     if (list == "categories") categories_.insert_or_assign(entry.integer("id"), entry.text("name"));
     if (list == "images") frames_.insert_or_assign(entry.integer("id"), entry.count("frame_index"));
     if (list == "annotations") add_annotation(entry, json);
@@ -51,10 +51,10 @@ class LabelsReader {
 
   template <typename Take>
   void hand_over(const Take& take) const {
-    for (std::size_t place = 0; place < annotations_.size(); ++place) {
-      const Annotation& one = annotations_[place];
-      take(find(frames_, one.image_id, "image_id", place),
-           find(categories_, one.category_id, "category_id", place), one.text);
+    for (std::size_t index = 0; index < annotations_.size(); ++index) {
+      const Annotation& one = annotations_[index];
+      take(find(frames_, one.image_id, "image_id", index),
+           find(categories_, one.category_id, "category_id", index), one.text);
     }
   }
 
@@ -80,9 +80,9 @@ class LabelsReader {
 
   template <typename Value>
   const Value& find(const std::unordered_map<std::int64_t, Value>& values, std::int64_t id, const char* key,
-                    std::size_t place) const {
+                    std::size_t index) const {
     if (const auto found = values.find(id); found != values.end()) return found->second;
-    throw DataError(fault(fmt::format("{}: annotations[{}].{}", file_, place, key), std::to_string(id), "",
+    throw DataError(fault(fmt::format("{}: annotations[{}].{}", file_, index, key), std::to_string(id), "",
                           "the id of an entry of the file"));
   }
 
@@ -100,10 +100,10 @@ void for_clip_frames(const Path& folder, const std::function<void(int, const Jso
   check_is_file(file);
   const std::string name = file.string();
   const std::string list = "line";
-  std::size_t place = 0;
+  std::size_t index = 0;
   int last = -1;
   for_frame_lines(file, [&](const Json& values) {
-    const JsonEntry entry(values, name, list, ++place);
+    const JsonEntry entry(values, name, list, ++index);
     const int frame_index = entry.count("frame_index");
     if (frame_index <= last) throw entry.fault_of("frame_index", fmt::format("above {}", last));
     last = frame_index;
@@ -121,8 +121,8 @@ void for_clip_labels(const Path& folder,
   check_is_own_file(file);
   LabelsReader reader(file);
   try {
-    reader.check_lists(read_json_elements(file, [&](const std::string& list, std::size_t place,
-                                                    const Json& json) { reader.take(list, place, json); }));
+    reader.check_lists(read_json_elements(file, [&](const std::string& list, std::size_t index,
+                                                    const Json& json) { reader.take(list, index, json); }));
   } catch (const ConfigError& error) {
     throw DataError(error.what());
   }

@@ -27,7 +27,7 @@ struct Survey {
 struct HasSeenEnough {};
 
 /// Adds a clip's lists that precede the images; a document that has them after the images is read to its end.
-void look_at(const ClipLabels& clip, Survey& survey) {
+void survey_clip(const ClipLabels& clip, Survey& survey) {
   std::map<int, std::string>& names = survey.names.emplace_back();
   std::size_t videos = 0;
   const TakeElement take = [&](const std::string& array, std::size_t place, const Json& element) {
@@ -51,7 +51,7 @@ void look_at(const ClipLabels& clip, Survey& survey) {
 
 Survey look_at_all(const std::vector<ClipLabels>& clips) {
   Survey survey;
-  for (const ClipLabels& clip : clips) look_at(clip, survey);
+  for (const ClipLabels& clip : clips) survey_clip(clip, survey);
   return survey;
 }
 

@@ -105,8 +105,8 @@ std::vector<Instance> ActorLabeller::label(const Passes& passes, std::span<const
   const std::vector<IndexUse> alone_uses =
       layered ? survey_indices(passes.actor_index) : std::vector<IndexUse>();
   check_actors(alone_uses);
-  const Layer all = look_at(passes.object_index, uses);
-  const Layer alone = layered ? look_at(passes.actor_index, alone_uses) : Layer();
+  const Layer all = layer_of(passes.object_index, uses);
+  const Layer alone = layered ? layer_of(passes.actor_index, alone_uses) : Layer();
   std::vector<Instance> instances = extract_instances(all.picture(), all.uses(), is_actor_);
   for (Instance& instance : instances) set_visible(all, layered ? &alone : nullptr, instance);
   set_places(frame, instances);
@@ -116,7 +116,7 @@ std::vector<Instance> ActorLabeller::label(const Passes& passes, std::span<const
   return instances;
 }
 
-ActorLabeller::Layer ActorLabeller::look_at(const Plane<std::uint16_t>& fine,
+ActorLabeller::Layer ActorLabeller::layer_of(const Plane<std::uint16_t>& fine,
                                             std::span<const IndexUse> uses) const {
   Layer layer = {.fine = &fine, .fine_uses = uses, .reshaped = {}, .reshaped_uses = {}};
   if (supersample_ == 1 && !map_) return layer;

@@ -42,7 +42,7 @@ class ActorLabeller {
 
  private:
   struct Layer;
-  [[nodiscard]] Layer look_at(const Plane<std::uint16_t>& fine, std::span<const IndexUse> uses) const;
+  [[nodiscard]] Layer layer_of(const Plane<std::uint16_t>& fine, std::span<const IndexUse> uses) const;
   [[nodiscard]] Plane<std::uint16_t> in_picture(const Plane<std::uint16_t>& fine,
                                                 std::span<const IndexUse> uses) const;
   [[nodiscard]] double shown_px(const Layer& layer, std::uint16_t index) const;

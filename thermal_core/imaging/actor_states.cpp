@@ -99,12 +99,12 @@ ActorState later_by(ActorState state, double later_s) noexcept {
   return state;
 }
 
-FireState fire_state(const FirePlace& place, double later_s) {
-  FireState state = {.fire = {.diameter_m = place.diameter_m}, .burning = place.burning};
-  if (place.burning) {
-    state.fire.burning_s = place.since_s + later_s;
+FireState fire_state(const FirePlace& placed_fire, double later_s) {
+  FireState state = {.fire = {.diameter_m = placed_fire.diameter_m}, .burning = placed_fire.burning};
+  if (placed_fire.burning) {
+    state.fire.burning_s = placed_fire.since_s + later_s;
   } else {
-    state.since_s = place.since_s + later_s;
+    state.since_s = placed_fire.since_s + later_s;
   }
   return state;
 }

@@ -39,7 +39,7 @@ struct ActorStates {
 [[nodiscard]] ActorState later_by(ActorState state, double later_s) noexcept;
 
 /// The state of a fire some time after time 0 of the scene.
-[[nodiscard]] FireState fire_state(const FirePlace& place, double later_s);
+[[nodiscard]] FireState fire_state(const FirePlace& placed_fire, double later_s);
 
 /// Midpoint of a clip's frames in the time of its scene [s]; 0 without frames.
 [[nodiscard]] double middle_s(const Manifest& manifest);

@@ -43,15 +43,15 @@ double spread(std::vector<Weighted> values) {
 class MaterialModel {
  public:
   /// @param air  in the sensor's response; must outlive this object
-  MaterialModel(const Material& material, const SceneOutline::Night& night, const SpectralResponse& response,
+  MaterialModel(const Material& material, const SceneOutline::Conditions& viewing, const SpectralResponse& response,
                 const BandAir& air)
       : material_(material),
-        weather_(night.weather),
-        temperature_k_(night.temperature_k(material, "")),
+        weather_(viewing.weather),
+        temperature_k_(viewing.temperature_k(material, "")),
         air_(air),
         blackbody_(response),
         band_(response, material.spectrum.value_or(EmissivitySpectrum(
-                            night.heated_k.empty() ? material.emissivity : material.measured_emissivity))),
+                            viewing.heated_k.empty() ? material.emissivity : material.measured_emissivity))),
         air_radiance_(blackbody_.radiance(weather_.air.temperature_k)),
         emitted_as_air_(band_.radiance(weather_.air.temperature_k)) {}
 
@@ -105,13 +105,13 @@ double shore_share(double cosine) {
 }
 
 /// Shifts by each term under one set of conditions.
-class NightShifts {
+class ConditionShifts {
  public:
-  NightShifts(const SceneOutline& outline, const SceneOutline::Night& night)
+  ConditionShifts(const SceneOutline& outline, const SceneOutline::Conditions& viewing)
       : outline_(outline),
-        night_(night),
-        response_(night.response ? *night.response : outline.response),
-        air_(night.weather.air, response_) {
+        conditions_(viewing),
+        response_(viewing.response ? *viewing.response : outline.response),
+        air_(viewing.weather.air, response_) {
     for (const SceneOutline::Cover& cover : outline.covers) {
       add_cover(cover);
       if (cover.material->mirrors()) add_mirror(cover);
@@ -144,7 +144,7 @@ class NightShifts {
 
   /// Adds the shifts by exposures or directions of a cover. The percentiles of actors are over actors alone.
   void add_heat(std::string_view term,
-                const std::map<std::string, std::vector<SceneOutline::PlaceShift>>& by_material,
+                const std::map<std::string, std::vector<SceneOutline::ExposureShift>>& by_material,
                 const SceneOutline::Cover& cover) {
     const auto found = by_material.find(cover.material->name);
     if (found == by_material.end()) return;
@@ -155,25 +155,25 @@ class NightShifts {
   }
 
   [[nodiscard]] MaterialModel model_of(const SceneOutline::Cover& cover) const {
-    return {*cover.material, night_, response_, air_};
+    return {*cover.material, conditions_, response_, air_};
   }
 
   void add_cover(const SceneOutline::Cover& cover) {
     const MaterialModel model = model_of(cover);
-    add_heat("place", night_.by_place, cover);
-    add_heat("facing", night_.facing, cover);
+    add_heat("place", conditions_.by_exposure, cover);
+    add_heat("facing", conditions_.facing, cover);
     add_variation(cover);
     add_parts(cover, model);
     const double direct_k = model.apparent_k(model.emitted(model.temperature_k()));
-    const double share = cover.share / static_cast<double>(night_.looks.size());
-    for (const SceneOutline::Look& look : night_.looks) {
-      const double sky = model.with_sky(1, look.ground_cosine);
+    const double share = cover.share / static_cast<double>(conditions_.view_directions.size());
+    for (const SceneOutline::ViewDirection& direction : conditions_.view_directions) {
+      const double sky = model.with_sky(1, direction.ground_cosine);
       const double sky_k = model.apparent_k(sky);
-      const double factor = angular_factor(cover.material->angular, look.ground_cosine);
-      const double tilted_k = model.apparent_k(model.with_sky(factor, look.ground_cosine));
+      const double factor = angular_factor(cover.material->angular, direction.ground_cosine);
+      const double tilted_k = model.apparent_k(model.with_sky(factor, direction.ground_cosine));
       add("sky", sky_k - direct_k, share, cover.actor);
       add("angular", tilted_k - sky_k, share, cover.actor);
-      add("path", model.apparent_k(model.with_path(sky, look.range_m)) - sky_k, share, cover.actor);
+      add("path", model.apparent_k(model.with_path(sky, direction.range_m)) - sky_k, share, cover.actor);
     }
   }
 
@@ -184,11 +184,11 @@ class NightShifts {
     for (const SceneOutline::Cover& cover : outline_.covers) {
       if (cover.material->mirrors()) continue;
       const double mirrored = model_of(cover).with_sky(1, 1);
-      for (const SceneOutline::Look& look : night_.looks) {
-        const double factor = angular_factor(water.material->angular, look.ground_cosine);
-        const double sky_k = model.apparent_k(model.with_sky(factor, look.ground_cosine));
+      for (const SceneOutline::ViewDirection& direction : conditions_.view_directions) {
+        const double factor = angular_factor(water.material->angular, direction.ground_cosine);
+        const double sky_k = model.apparent_k(model.with_sky(factor, direction.ground_cosine));
         const double shift_k = model.apparent_k(model.with_mirrored(factor, mirrored)) - sky_k;
-        const double share = shore_share(look.ground_cosine);
+        const double share = shore_share(direction.ground_cosine);
         add("mirror", shift_k, cover.share * share, false);
         add("mirror", 0, cover.share * (1 - share), false);
       }
@@ -209,7 +209,7 @@ class NightShifts {
     if (!cover.actor) return;
     const double mean_k = model.apparent_k(model.emitted(model.temperature_k()));
     for (const auto& [part, values] : cover.material->parts) {
-      const double part_k = night_.temperature_k(*cover.material, part);
+      const double part_k = conditions_.temperature_k(*cover.material, part);
       add("parts", model.apparent_k(model.emitted(part_k)) - mean_k, 1, true);
     }
   }
@@ -242,13 +242,13 @@ class NightShifts {
 
   /// The signal is unchanged; the noise grows.
   void add_falloff() {
-    for (const SceneOutline::Look& look : night_.looks) {
-      add("falloff", outline_.netd_k * std::pow(look.axis_cosine, -4), 1, false);
+    for (const SceneOutline::ViewDirection& direction : conditions_.view_directions) {
+      add("falloff", outline_.netd_k * std::pow(direction.axis_cosine, -4), 1, false);
     }
   }
 
   const SceneOutline& outline_;
-  const SceneOutline::Night& night_;
+  const SceneOutline::Conditions& conditions_;
   const SpectralResponse& response_;
   BandAir air_;
   std::array<std::vector<Weighted>, std::size(kTerms)> shifts_;
@@ -271,18 +271,18 @@ bool is_kept(const TermEffect& effect, double netd_k) {
 
 /// Effects of all terms under the worst conditions, in the order of kTerms. Conditions are evaluated in parallel.
 std::vector<TermEffect> effects_of(const SceneOutline& outline) {
-  std::vector<std::vector<TermEffect>> of_nights(outline.nights.size());
+  std::vector<std::vector<TermEffect>> of_nights(outline.conditions.size());
   parallel_for(of_nights.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const NightShifts night(outline, outline.nights[k]);
-      for (const TermInfo& term : kTerms) of_nights[k].push_back(night.effect(term));
+      const ConditionShifts viewing(outline, outline.conditions[k]);
+      for (const TermInfo& term : kTerms) of_nights[k].push_back(viewing.effect(term));
     }
   });
   std::vector<TermEffect> worst;
   for (const TermInfo& term : kTerms) {
     TermEffect effect{.name = std::string(term.name)};
-    for (const std::vector<TermEffect>& night : of_nights) {
-      const TermEffect& one = night.at(worst.size());
+    for (const std::vector<TermEffect>& viewing : of_nights) {
+      const TermEffect& one = viewing.at(worst.size());
       effect.spread_k = std::max(effect.spread_k, one.spread_k);
       effect.actor_shift_k = std::max(effect.actor_shift_k, one.actor_shift_k);
     }
@@ -323,17 +323,17 @@ Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices) {
   return weigh_terms(outline, std::vector<TermChoices>{choices}).front();
 }
 
-double SceneOutline::Night::temperature_k(const Material& material, const std::string& part) const {
+double SceneOutline::Conditions::temperature_k(const Material& material, const std::string& part) const {
   const auto found = heated_k.find(material.name);
   if (found == heated_k.end()) return material.part_temperature_k(part, weather);
   const auto of_part = found->second.find(part);
   return of_part == found->second.end() ? found->second.at("") : of_part->second;
 }
 
-MaterialShift shift_of(const Material& material, const SceneOutline::Night& night, double range_m,
+MaterialShift shift_of(const Material& material, const SceneOutline::Conditions& viewing, double range_m,
                        const SpectralResponse& response) {
-  const BandAir air(night.weather.air, response);
-  const MaterialModel model(material, night, response, air);
+  const BandAir air(viewing.weather.air, response);
+  const MaterialModel model(material, viewing, response, air);
   const double direct_k = model.apparent_k(model.emitted(model.temperature_k()));
   const double sky = model.with_sky(1, 1);
   const double sky_k = model.apparent_k(sky);

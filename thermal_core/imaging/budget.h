@@ -21,32 +21,32 @@ struct SceneOutline {
     bool actor = false;
   };
   /// A viewing direction: distance of the ground, angle of incidence on it, angle off the optical axis.
-  struct Look {
+  struct ViewDirection {
     double range_m = 0;
     double ground_cosine = 1;
     double axis_cosine = 1;
   };
   /// Shift of a surface's temperature at a kind of exposure, and the share of the surface with it.
-  struct PlaceShift {
+  struct ExposureShift {
     double shift_k = 0;
     double share = 0;
   };
   /// Clips under one weather, seen with one spectral response.
-  struct Night {
+  struct Conditions {
     Weather weather;
     std::optional<SpectralResponse> response = {};  ///< empty: the outline's
-    std::vector<Look>
-        looks;  ///< empty: viewing directions are unknown; terms that depend on them have no effect
+    std::vector<ViewDirection>
+        view_directions;  ///< empty: viewing directions are unknown; terms that depend on them have no effect
     /// Temperatures by the heat balance, by material and part ("" is the whole); others are on Table 1's line.
     std::map<std::string, std::map<std::string, double>> heated_k = {};
-    std::map<std::string, std::vector<PlaceShift>> by_place = {};  ///< by material; see heat_night()
-    std::map<std::string, std::vector<PlaceShift>> facing = {};
+    std::map<std::string, std::vector<ExposureShift>> by_exposure = {};  ///< by material; see heat_night()
+    std::map<std::string, std::vector<ExposureShift>> facing = {};
 
     [[nodiscard]] double temperature_k(const Material& material, const std::string& part) const;
   };
 
   std::vector<Cover> covers;
-  std::vector<Night> nights;
+  std::vector<Conditions> conditions;
   SpectralResponse response = SpectralResponse::flat(8, 14);
   double netd_k = 0.04;
   double smear_px = 0;  ///< motion of the picture within the sensor's time constant, for the fastest clip
@@ -92,7 +92,7 @@ struct MaterialShift {
   double inversion_k = 0;
 };
 /// The shifts of a material at a distance of range_m.
-[[nodiscard]] MaterialShift shift_of(const Material& material, const SceneOutline::Night& night,
+[[nodiscard]] MaterialShift shift_of(const Material& material, const SceneOutline::Conditions& viewing,
                                      double range_m, const SpectralResponse& response);
 
 }  // namespace thermal

@@ -14,10 +14,10 @@ struct GroundShift {
 
 /// All kinds of ground are drawn as one surface, with the emissivity of bare soil. Higher emissivity looks warmer under
 /// a clear sky: grass (0.96) beside soil (0.91) by about 1.5 K.
-class SoilLook {
+class SoilAppearance {
  public:
   /// @param reflects  whether surfaces reflect the sky and its obstacles
-  SoilLook(BandRadiance soil, const BandAir& air, double air_k, bool reflects);
+  SoilAppearance(BandRadiance soil, const BandAir& air, double air_k, bool reflects);
 
   /// Offset of a part at a temperature [K]: exact at that temperature without sky and with all of it, seen from above.
   /// At a point 10 K warmer or colder, the error is up to 11 K times the difference of the emissivities: 0.5 K for
@@ -25,7 +25,7 @@ class SoilLook {
   [[nodiscard]] GroundShift shift(const BandRadiance& part, double temperature_k) const;
 
  private:
-  [[nodiscard]] double look_k(const BandRadiance& part, double temperature_k, double sky_view) const;
+  [[nodiscard]] double apparent_k(const BandRadiance& part, double temperature_k, double sky_view) const;
 
   BandRadiance soil_;
   double air_k_;

@@ -78,7 +78,7 @@ class Cells {
   [[nodiscard]] double depth(std::size_t number) const {
     return static_cast<double>((highest_m_ - maps_.height_m[of_maps(number)]) * per_relief_m_);
   }
-  [[nodiscard]] SurfacePlace place(std::size_t number) const {
+  [[nodiscard]] SurfaceExposure exposure(std::size_t number) const {
     const std::size_t cell = of_maps(number);
     const double damp = damp_.empty() ? 0 : static_cast<double>(damp_[number]);
     const double wetter = std::min(1.0, part_of(maps_.moisture[cell]) + damp);
@@ -113,10 +113,10 @@ struct PartPlanes {
 };
 
 double temperature_k(const GroundPart& part, const GroundMoment& moment, const Cells& cells,
-                     SurfacePlace place, std::size_t number) {
-  if (!moment.sunlit.empty()) place.sunlit = static_cast<double>(moment.sunlit[cells.of_maps(number)]);
+                     SurfaceExposure exposure, std::size_t number) {
+  if (!moment.sunlit.empty()) exposure.sunlit = static_cast<double>(moment.sunlit[cells.of_maps(number)]);
   const double ground_k =
-      part.heat->temperature_k(place) + part.shift.without_sky_k + part.shift.by_sky_view_k * place.sky_view;
+      part.heat->temperature_k(exposure) + part.shift.without_sky_k + part.shift.by_sky_view_k * exposure.sky_view;
   return moment.cold_pool_k > 0 ? ground_k - moment.cold_pool_k * cells.depth(number) : ground_k;
 }
 
@@ -127,10 +127,10 @@ PartPlanes planes_of(std::size_t part, const Cells& cells, const GroundWarmth& h
   planes.per_h_k.resize(cells.count());
   parallel_for(cells.count(), kGroundCellsAChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const SurfacePlace place = cells.place(i);
-      const double first_k = temperature_k(heat.first.parts[part], heat.first, cells, place, i);
+      const SurfaceExposure exposure = cells.exposure(i);
+      const double first_k = temperature_k(heat.first.parts[part], heat.first, cells, exposure, i);
       const double more_k =
-          heat.hours > 0 ? temperature_k(heat.last.parts[part], heat.last, cells, place, i) - first_k : 0;
+          heat.hours > 0 ? temperature_k(heat.last.parts[part], heat.last, cells, exposure, i) - first_k : 0;
       planes.temperature_k[i] = static_cast<float>(first_k + more_k / 2);
       planes.per_h_k[i] = static_cast<float>(heat.hours > 0 ? more_k / heat.hours : 0);
     }
@@ -241,7 +241,7 @@ std::vector<float> smoothed(const std::vector<float>& plane, const GroundWindow&
 
 std::vector<float> sky_views(const Cells& cells) {
   std::vector<float> views(cells.count());
-  for (std::size_t i = 0; i < views.size(); ++i) views[i] = static_cast<float>(cells.place(i).sky_view);
+  for (std::size_t i = 0; i < views.size(); ++i) views[i] = static_cast<float>(cells.exposure(i).sky_view);
   return views;
 }
 

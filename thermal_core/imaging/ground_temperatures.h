@@ -14,7 +14,7 @@
 
 namespace thermal {
 
-/// State of one part of the ground at a moment. All parts are drawn as bare soil, see SoilLook.
+/// State of one part of the ground at a moment. All parts are drawn as bare soil, see SoilAppearance.
 struct GroundPart {
   const MaterialMoment* heat = nullptr;
   GroundShift shift = {};

@@ -68,7 +68,7 @@ struct LevelTables {
 };
 
 /// Whether a pixel has a position on the ground. False for NaN.
-VELDT_INLINE bool has_place(std::int32_t is_ground, float x, float y, float footprint) noexcept {
+VELDT_INLINE bool has_point(std::int32_t is_ground, float x, float y, float footprint) noexcept {
   constexpr float kFarthest = 1e6F;
   const float far_x = std::abs(x);
   const float far_y = std::abs(y);
@@ -138,7 +138,7 @@ VELDT_CLONES void sample_levels(const Window& all, const LevelTables& tables,
   const LevelTables t = tables;
   const float per_cell = t.per_m[0];
   for (std::size_t i = 0; i < count; ++i) {
-    const bool usable = has_place(is_ground[surface[i]], x[i], y[i], footprint[i]);
+    const bool usable = has_point(is_ground[surface[i]], x[i], y[i], footprint[i]);
     const int level = level_of(usable ? footprint[i] * per_cell : 0.0F, t.last);
     const Blended value = blend(window, t.first[level], t.width[level], t.height[level], t.per_m[level],
                                 usable ? x[i] : 0.0F, usable ? y[i] : 0.0F);
@@ -160,7 +160,7 @@ VELDT_CLONES void sample_level(const Window& all, const LevelTables& tables, int
   const std::int32_t height = tables.height[level];
   const float per_m = tables.per_m[level];
   for (std::size_t i = 0; i < count; ++i) {
-    const bool usable = has_place(is_ground[surface[i]], x[i], y[i], footprint[i]);
+    const bool usable = has_point(is_ground[surface[i]], x[i], y[i], footprint[i]);
     const Blended value =
         blend(window, first, width, height, per_m, usable ? x[i] : 0.0F, usable ? y[i] : 0.0F);
     temperature_k[i] = chosen(usable, value.temperature_k, temperature_k[i]);
@@ -206,11 +206,11 @@ void GroundTexture::add_level(const GroundValues& values, std::size_t width, std
   });
 }
 
-void GroundTexture::sample(const Places& places, float later_h, std::span<float> temperature_k,
+void GroundTexture::sample(const Points& points, float later_h, std::span<float> temperature_k,
                            std::span<float> sky_view) const noexcept {
   constexpr std::size_t kMostLevels = 16;
   const std::size_t count = temperature_k.size();
-  assert(places.surface.size() == count && places.x_m.size() == count && sky_view.size() == count &&
+  assert(points.surface.size() == count && points.x_m.size() == count && sky_view.size() == count &&
          levels_.size() <= kMostLevels);
   std::array<std::int32_t, kMostLevels> first{};
   std::array<std::int32_t, kMostLevels> width{};
@@ -226,13 +226,13 @@ void GroundTexture::sample(const Places& places, float later_h, std::span<float>
                          later_h * warming_step_k_h_ / kStepK};
   const LevelTables tables = {first.data(), width.data(), height.data(), per_m.data(),
                               static_cast<int>(levels_.size()) - 1};
-  const std::uint16_t* surface = places.surface.data();
-  const std::int32_t* is_ground = places.is_ground.data();
-  const float* x = places.x_m.data();
-  const float* y = places.y_m.data();
-  const float* footprint = places.footprint_m.data();
-  const int low = level_of(std::bit_cast<float>(places.footprints.smallest) * per_m[0], tables.last);
-  if (low == level_of(std::bit_cast<float>(places.footprints.largest) * per_m[0], tables.last)) {
+  const std::uint16_t* surface = points.surface.data();
+  const std::int32_t* is_ground = points.is_ground.data();
+  const float* x = points.x_m.data();
+  const float* y = points.y_m.data();
+  const float* footprint = points.footprint_m.data();
+  const int low = level_of(std::bit_cast<float>(points.footprints.smallest) * per_m[0], tables.last);
+  if (low == level_of(std::bit_cast<float>(points.footprints.largest) * per_m[0], tables.last)) {
     sample_level(window, tables, low, surface, is_ground, x, y, footprint, temperature_k.data(),
                  sky_view.data(), count);
   } else {

@@ -31,7 +31,7 @@ class GroundTexture {
   GroundTexture(const GroundGrid& grid, GroundValues values);
 
   /// A row of positions on the ground [m], the size of a pixel there [m], and which surfaces are ground: 1, others 0.
-  struct Places {
+  struct Points {
     std::span<const std::uint16_t> surface;
     std::span<const std::int32_t> is_ground;
     std::span<const float> x_m;
@@ -45,7 +45,7 @@ class GroundTexture {
   /// averaged out. Other pixels keep their temperature and get -1 as their sky view, as do those with a position or
   /// footprint that is not finite or a negative footprint. Beyond the grid, its border is replicated. Steps of 1/512 K,
   /// of 1/255, and of 1/127 of the fastest warming.
-  void sample(const Places& places, float later_h, std::span<float> temperature_k,
+  void sample(const Points& points, float later_h, std::span<float> temperature_k,
               std::span<float> sky_view) const noexcept;
 
  private:

@@ -60,20 +60,20 @@ class HeatedEmission {
 
   void operator()(Row& row) const {
     const std::size_t width = row.surface.size();
-    for (auto* scratch : {&row.place_x, &row.place_y, &row.footprint, &row.variation, &row.temperature_k,
+    for (auto* scratch : {&row.point_x, &row.point_y, &row.footprint, &row.variation, &row.temperature_k,
                           &row.ground_sky_view, &row.metres[0], &row.metres[1], &row.metres[2]})
       scratch->resize(width);
     row.even_k.resize(even_k_.size());
     for (std::size_t i = 0; i < even_k_.size(); ++i) row.even_k[i] = even_k_[i] + later_h(row) * even_k_h_[i];
     kernels::look_up(row.surface.data(), row.even_k.data(), row.temperature_k.data(), width);
     kernels::FootprintRange footprints;
-    if (ground_ != nullptr || varies_) footprints = find_places(row);
+    if (ground_ != nullptr || varies_) footprints = find_points(row);
     if (ground_ != nullptr) {
-      detail_->warp.move(row.metres[0], row.metres[1], row.metres[2], row.place_x, row.place_y);
+      detail_->warp.move(row.metres[0], row.metres[1], row.metres[2], row.point_x, row.point_y);
       ground_->sample({.surface = row.surface,
                        .is_ground = is_ground_,
-                       .x_m = row.place_x,
-                       .y_m = row.place_y,
+                       .x_m = row.point_x,
+                       .y_m = row.point_y,
                        .footprint_m = row.metres[2],
                        .footprints = footprints},
                       later_h(row), row.temperature_k, row.ground_sky_view);
@@ -86,8 +86,8 @@ class HeatedEmission {
                          .x_m = row.metres[0].data(),
                          .y_m = row.metres[1].data(),
                          .footprint_m = row.metres[2].data()},
-                        row.place_x.data(), row.place_y.data(), row.footprint.data(), width);
-      field_.sample(row.place_x, row.place_y, row.footprint, row.variation);
+                        row.point_x.data(), row.point_y.data(), row.footprint.data(), width);
+      field_.sample(row.point_x, row.point_y, row.footprint, row.variation);
     } else {
       std::ranges::fill(row.variation, 0.0F);
     }
@@ -116,7 +116,7 @@ class HeatedEmission {
     }
   }
 
-  static kernels::FootprintRange find_places(Row& row) {
+  static kernels::FootprintRange find_points(Row& row) {
     return kernels::find_metres({.depth_m = row.depth_m.data(),
                                  .ray_x = row.ray_x.data(),
                                  .ray_y = row.ray_y.data(),

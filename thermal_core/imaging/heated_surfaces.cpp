@@ -74,13 +74,13 @@ HeatedSurface HeatedSurfaces::heat_of(const Surface& surface) {
   if (const BodyHeat* body = material.body_heat_of(part)) {
     set_body(*body, moment_of(later_by(states_.at(surface.actor_class), later_s_)), heated);
   } else if (const MaterialHeat* heat = material.heat_of(surface.part)) {
-    const MaterialMoment& by_place = moment_.materials.at(material.heat_name(surface.part));
+    const MaterialMoment& by_exposure = moment_.materials.at(material.heat_name(surface.part));
     if (heat != material.heat_of("") && is_crown(material)) {
-      set_oriented(by_place.orientation(
+      set_oriented(by_exposure.orientation(
                        {.sky_view = kBelowCrown, .sunlit = kBelowCrown, .moisture = moment_.ground_moisture}),
                    heated);
     } else {
-      std::visit([&](const auto& kind) { set(kind, by_place, heated); }, *heat);
+      std::visit([&](const auto& kind) { set(kind, by_exposure, heated); }, *heat);
     }
   } else {
     heated.middle.temperature_k = static_cast<float>(material.part_temperature_k(part, weather_));
@@ -88,36 +88,36 @@ HeatedSurface HeatedSurfaces::heat_of(const Surface& surface) {
   return heated;
 }
 
-SurfacePlace HeatedSurfaces::open_place() const { return {.moisture = moment_.ground_moisture}; }
+SurfaceExposure HeatedSurfaces::open_exposure() const { return {.moisture = moment_.ground_moisture}; }
 
-void HeatedSurfaces::set(const GroundHeat& heat, const MaterialMoment& by_place, HeatedSurface& heated) {
-  if (!heat.is_body) return set_cover(by_place, heated);
-  set_oriented(by_place.orientation(open_place()), heated);
+void HeatedSurfaces::set(const GroundHeat& heat, const MaterialMoment& by_exposure, HeatedSurface& heated) {
+  if (!heat.is_body) return set_cover(by_exposure, heated);
+  set_oriented(by_exposure.orientation(open_exposure()), heated);
 }
 
-void HeatedSurfaces::set(const LeavesHeat& heat, const MaterialMoment& by_place, HeatedSurface& heated) {
-  if (heat.is_cover) return set_cover(by_place, heated);
-  SurfacePlace place = open_place();
-  place.sky_view = kMiddleOfCrown;
-  heated.middle.temperature_k = static_cast<float>(by_place.temperature_k(place));
+void HeatedSurfaces::set(const LeavesHeat& heat, const MaterialMoment& by_exposure, HeatedSurface& heated) {
+  if (heat.is_cover) return set_cover(by_exposure, heated);
+  SurfaceExposure exposure = open_exposure();
+  exposure.sky_view = kMiddleOfCrown;
+  heated.middle.temperature_k = static_cast<float>(by_exposure.temperature_k(exposure));
   if (!terms_.place) return;
   heated.kind = HeatedSurface::Kind::crown;
   for (std::size_t node = 0; node < SurfaceWarmth::kDepths; ++node) {
     const double depth_m = kCrownStepM * static_cast<double>(node);
-    place.sky_view = diffuse_through_leaves(heat.leaf_density_m2_m3 * depth_m);
-    heated.middle.by_depth_k[node] = static_cast<float>(by_place.temperature_k(place));
+    exposure.sky_view = diffuse_through_leaves(heat.leaf_density_m2_m3 * depth_m);
+    heated.middle.by_depth_k[node] = static_cast<float>(by_exposure.temperature_k(exposure));
   }
 }
 
-void HeatedSurfaces::set(const SlabHeat& heat, const MaterialMoment& by_place, HeatedSurface& heated) {
-  if (heat.is_body) return set_oriented(by_place.orientation(open_place()), heated);
-  SurfacePlace place = open_place();
-  heated.middle.temperature_k = static_cast<float>(by_place.temperature_k(place));
+void HeatedSurfaces::set(const SlabHeat& heat, const MaterialMoment& by_exposure, HeatedSurface& heated) {
+  if (heat.is_body) return set_oriented(by_exposure.orientation(open_exposure()), heated);
+  SurfaceExposure exposure = open_exposure();
+  heated.middle.temperature_k = static_cast<float>(by_exposure.temperature_k(exposure));
   if (!terms_.place) return;
   heated.kind = HeatedSurface::Kind::water;
   for (std::size_t node = 0; node < SurfaceWarmth::kDepths; ++node) {
-    place.depth_m = kWaterStepM * static_cast<double>(node);
-    heated.middle.by_depth_k[node] = static_cast<float>(by_place.temperature_k(place));
+    exposure.depth_m = kWaterStepM * static_cast<double>(node);
+    heated.middle.by_depth_k[node] = static_cast<float>(by_exposure.temperature_k(exposure));
   }
 }
 
@@ -129,7 +129,7 @@ BodyMoment HeatedSurfaces::moment_of(const ActorState& actor) const {
   moment.since_bath_s = actor.since_bath_s;
   moment.fire = actor.fire;
   if (const auto water = moment_.materials.find(kBath); water != moment_.materials.end())
-    moment.refuge_k = water->second.temperature_k(open_place());
+    moment.refuge_k = water->second.temperature_k(open_exposure());
   return moment;
 }
 
@@ -152,8 +152,8 @@ void HeatedSurfaces::set_oriented(const Orientation& orientation, HeatedSurface&
   std::ranges::transform(orientation.sun, warmth.sun.begin(), rounded);
 }
 
-void HeatedSurfaces::set_cover(const MaterialMoment& by_place, HeatedSurface& heated) {
-  set_oriented(by_place.orientation(open_place()), heated);
+void HeatedSurfaces::set_cover(const MaterialMoment& by_exposure, HeatedSurface& heated) {
+  set_oriented(by_exposure.orientation(open_exposure()), heated);
   heated.steepest = kSteepestGround;
   if (!terms_.place) return;
   heated.kind = HeatedSurface::Kind::ground;

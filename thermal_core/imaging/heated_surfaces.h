@@ -36,14 +36,14 @@ class HeatedSurfaces {
 
  private:
   [[nodiscard]] HeatedSurface heat_of(const Surface& surface);
-  [[nodiscard]] SurfacePlace open_place() const;
+  [[nodiscard]] SurfaceExposure open_exposure() const;
   [[nodiscard]] BodyMoment moment_of(const ActorState& actor) const;
-  void set(const GroundHeat& heat, const MaterialMoment& by_place, HeatedSurface& heated);
-  void set(const LeavesHeat& heat, const MaterialMoment& by_place, HeatedSurface& heated);
-  void set(const SlabHeat& heat, const MaterialMoment& by_place, HeatedSurface& heated);
+  void set(const GroundHeat& heat, const MaterialMoment& by_exposure, HeatedSurface& heated);
+  void set(const LeavesHeat& heat, const MaterialMoment& by_exposure, HeatedSurface& heated);
+  void set(const SlabHeat& heat, const MaterialMoment& by_exposure, HeatedSurface& heated);
   void set_body(const BodyHeat& body, const BodyMoment& moment, HeatedSurface& heated) const;
   void set_oriented(const Orientation& orientation, HeatedSurface& heated) const;
-  void set_cover(const MaterialMoment& by_place, HeatedSurface& heated);
+  void set_cover(const MaterialMoment& by_exposure, HeatedSurface& heated);
 
   const std::vector<ActorState>& states_;
   const HeatSettings& settings_;

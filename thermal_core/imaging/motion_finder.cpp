@@ -144,14 +144,14 @@ std::vector<std::int32_t> shown_pixels(const Manifest& manifest, const CameraInt
   std::vector<std::int32_t> shown;
   shown.reserve(rays.x().size());
   for (std::size_t i = 0; i < rays.x().size(); ++i) {
-    const PicturePoint place =
+    const PicturePoint picture_point =
         project(passes, manifest.lens,
                 {static_cast<double>(rays.x().pixels()[i]), static_cast<double>(rays.y().pixels()[i])});
     const auto inside = [](double px, int size) {
       return px > 0 ? std::min(static_cast<int>(std::min(px, 1e6)), size - 1) : 0;  // NaN compares false
     };
-    shown.push_back(inside(place.v_px, passes.height_px) * passes.width_px +
-                    inside(place.u_px, passes.width_px));
+    shown.push_back(inside(picture_point.v_px, passes.height_px) * passes.width_px +
+                    inside(picture_point.u_px, passes.width_px));
   }
   return shown;
 }

@@ -41,9 +41,9 @@ VELDT_CLONES void look_up(const std::uint16_t* __restrict surface, const float* 
   for (std::size_t i = 0; i < count; ++i) out[i] = by_surface[surface[i]];
 }
 
-VELDT_CLONES void find_places(const PlaceInput& in, float* __restrict x, float* __restrict y,
+VELDT_CLONES void find_points(const PointInput& in, float* __restrict x, float* __restrict y,
                               float* __restrict footprint, std::size_t count) noexcept {
-  const PlaceInput p = in;
+  const PointInput p = in;
   for (std::size_t i = 0; i < count; ++i) {
     const float scale = p.per_correlation_length[p.surface[i]];
     const float depth = p.depth_m[i] * scale;

@@ -18,7 +18,7 @@ struct CameraAxis {
 };
 
 /// Intersections of pixels' rays with their surfaces, and the pixels' size there, in correlation lengths.
-struct PlaceInput {
+struct PointInput {
   const std::uint16_t* surface;
   const float* per_correlation_length;  ///< by surface
   const float* depth_m;
@@ -28,7 +28,7 @@ struct PlaceInput {
   CameraAxis x, y;
   float pixel_width;
 };
-void find_places(const PlaceInput& in, float* x, float* y, float* footprint, std::size_t count) noexcept;
+void find_points(const PointInput& in, float* x, float* y, float* footprint, std::size_t count) noexcept;
 
 /// Smallest and largest footprint of pixels that have one, 0 or more, as IEEE-754 bits, which are monotonic for
 /// non-negative floats. NaN and infinity count as large. Without any, the largest is negative.
@@ -37,7 +37,7 @@ struct FootprintRange {
   std::int32_t largest = -1;
 };
 
-/// The same as find_places() in metres.
+/// The same as find_points() in metres.
 struct MetresInput {
   const float* depth_m;
   const float* ray_x;

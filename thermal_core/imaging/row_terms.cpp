@@ -133,8 +133,8 @@ RowTerm varied_emission(const SurfaceOpticsList& surfaces, const VariationField&
   return [&field, nodes, first_node, position, spread,
           scale = column(surfaces, [](const auto& s) { return s.per_correlation_length; })](Row& row) {
     const std::size_t width = row.surface.size();
-    for (auto* scratch : {&row.place_x, &row.place_y, &row.footprint, &row.variation}) scratch->resize(width);
-    kernels::find_places({.surface = row.surface.data(),
+    for (auto* scratch : {&row.point_x, &row.point_y, &row.footprint, &row.variation}) scratch->resize(width);
+    kernels::find_points({.surface = row.surface.data(),
                           .per_correlation_length = scale.data(),
                           .depth_m = row.depth_m.data(),
                           .ray_x = row.ray_x.data(),
@@ -144,8 +144,8 @@ RowTerm varied_emission(const SurfaceOpticsList& surfaces, const VariationField&
                           .x = axis_of(row, 0),
                           .y = axis_of(row, 1),
                           .pixel_width = row.sample_width},
-                         row.place_x.data(), row.place_y.data(), row.footprint.data(), width);
-    field.sample(row.place_x, row.place_y, row.footprint, row.variation);
+                         row.point_x.data(), row.point_y.data(), row.footprint.data(), width);
+    field.sample(row.point_x, row.point_y, row.footprint, row.variation);
     kernels::emit_varied({.surface = row.surface.data(),
                           .position = position.data(),
                           .spread = spread.data(),

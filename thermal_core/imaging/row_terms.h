@@ -48,8 +48,8 @@ struct Row {
   std::vector<float> cosine;             ///< of the viewing angle
   std::vector<float> reflected_w_m2_sr;  ///< of blackbody surroundings at air temperature
   std::vector<std::size_t> water;        ///< indices of water pixels
-  std::vector<float> place_x;            ///< on the ground [correlation lengths]
-  std::vector<float> place_y;
+  std::vector<float> point_x;            ///< on the ground [correlation lengths]
+  std::vector<float> point_y;
   std::vector<float> footprint;
   std::array<std::vector<float>, 3> metres;  ///< the same three in metres, of heated_emission()
   std::vector<float> variation;

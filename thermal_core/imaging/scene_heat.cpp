@@ -185,13 +185,13 @@ const MaterialMoment& heat_of(const HeatOfMoment& moment, const std::string& mat
 class GroundOfClip {
  public:
   GroundOfClip(const HeatSettings& settings, const Weather& weather, const Manifest& manifest,
-               const SceneHeatTerms& terms, const GroundLookOf& look_of, std::uint32_t seed)
+               const SceneHeatTerms& terms, const GroundAppearanceOf& appearance_of, std::uint32_t seed)
       : maps_(*settings.ground),
         day_(*settings.day),
         solar_h_(weather.solar_h),
         cold_pool_k_(weather.cold_pool_k),
         by_slope_(terms.facing),
-        look_of_(look_of),
+        appearance_of_(appearance_of),
         ground_(ground_of_window(maps_, window_of(maps_, manifest), terms.variation, seed)) {}
 
   [[nodiscard]] GroundTexture between(const Ends& ends) const {
@@ -224,9 +224,9 @@ class GroundOfClip {
     const HeatOfMoment& heat = moment.surfaces->moment();
     GroundMoment ground = {.parts = {}, .sunlit = sunlit, .cold_pool_k = cold_pool_k(heat.forcing)};
     for (const std::string& name : ground_part_names(maps_.covers)) {
-      const MaterialMoment& by_place = heat_of(heat, name);
-      const GroundLook look = look_of_(name, by_place.temperature_k({.moisture = heat.ground_moisture}));
-      ground.parts.push_back({.heat = &by_place, .shift = look.shift, .variation_k = look.variation_k});
+      const MaterialMoment& by_exposure = heat_of(heat, name);
+      const GroundAppearance appearance = appearance_of_(name, by_exposure.temperature_k({.moisture = heat.ground_moisture}));
+      ground.parts.push_back({.heat = &by_exposure, .shift = appearance.shift, .variation_k = appearance.variation_k});
     }
     return ground;
   }
@@ -236,7 +236,7 @@ class GroundOfClip {
   double solar_h_;
   double cold_pool_k_;
   bool by_slope_;
-  const GroundLookOf& look_of_;
+  const GroundAppearanceOf& appearance_of_;
   GroundOfWindow ground_;
 };
 
@@ -249,7 +249,7 @@ double hours_of(const Manifest& manifest) {
 
 SceneHeat heat_of_scene(const std::vector<Surface>& surfaces, const std::vector<ActorState>& states,
                         const HeatSettings& settings, const Weather& weather, const Manifest& manifest,
-                        const SceneHeatTerms& terms, const GroundLookOf& look_of, std::uint32_t seed) {
+                        const SceneHeatTerms& terms, const GroundAppearanceOf& appearance_of, std::uint32_t seed) {
   const auto moment_at = [&](double later_h) {
     return Moment{later_h, std::make_shared<const HeatedSurfaces>(surfaces, states, settings, weather,
                                                                   3600 * later_h, terms)};
@@ -258,7 +258,7 @@ SceneHeat heat_of_scene(const std::vector<Surface>& surfaces, const std::vector<
       .spans = {}, .spots = warm_spots(manifest, settings.day->at(weather.solar_h)), .ground = {}};
   std::optional<GroundOfClip> ground;
   if (terms.place) {
-    ground.emplace(settings, weather, manifest, terms, look_of, seed);
+    ground.emplace(settings, weather, manifest, terms, appearance_of, seed);
     heat.ground.emplace(ground->detail(seed));
   }
   for (const Ends& ends : Spans(moment_at).of_clip(hours_of(manifest))) {

@@ -17,12 +17,12 @@
 namespace thermal {
 
 /// Appearance of a material of the ground at a temperature [K].
-struct GroundLook {
-  GroundShift shift;       ///< see SoilLook
+struct GroundAppearance {
+  GroundShift shift;       ///< see SoilAppearance
   double variation_k = 0;  ///< see GroundPart
 };
 /// The appearance of each material, by its name.
-using GroundLookOf = std::function<GroundLook(const std::string& material, double temperature_k)>;
+using GroundAppearanceOf = std::function<GroundAppearance(const std::string& material, double temperature_k)>;
 
 /// Temperatures of a clip's surfaces by the heat balance. Surfaces whose material has no heat properties have their
 /// part's temperature on Table 1's line. A clip is one span, or several where the change of open level surfaces is
@@ -31,7 +31,7 @@ using GroundLookOf = std::function<GroundLook(const std::string& material, doubl
 [[nodiscard]] SceneHeat heat_of_scene(const std::vector<Surface>& surfaces,
                                       const std::vector<ActorState>& states, const HeatSettings& settings,
                                       const Weather& weather, const Manifest& manifest,
-                                      const SceneHeatTerms& terms, const GroundLookOf& look_of,
+                                      const SceneHeatTerms& terms, const GroundAppearanceOf& appearance_of,
                                       std::uint32_t seed);
 
 }  // namespace thermal

@@ -155,21 +155,21 @@ void SceneRadiance::add_heat(const Manifest& manifest, const MaterialLibrary& ma
     return BandRadiance(settings.response,
                         spectrum_of(materials.find(name, "maps of the ground: kinds"), true));
   };
-  std::optional<SoilLook> look;
+  std::optional<SoilAppearance> appearance;
   const bool by_place = terms.place && settings.heat->ground != nullptr;
   if (by_place) {
     const Air& air = settings.weather.air;
-    look.emplace(band_of(settings.heat->ground->covers.kinds.front()), BandAir(air, settings.response),
+    appearance.emplace(band_of(settings.heat->ground->covers.kinds.front()), BandAir(air, settings.response),
                  air.temperature_k, terms.sky);
   }
-  const auto look_of = [&](const std::string& name, double temperature_k) -> GroundLook {
-    return {.shift = look->shift(band_of(name), temperature_k),
+  const auto appearance_of = [&](const std::string& name, double temperature_k) -> GroundAppearance {
+    return {.shift = appearance->shift(band_of(name), temperature_k),
             .variation_k = materials.find(name, "maps of the ground: kinds").variation.stddev_k};
   };
   held_->heat = heat_of_scene(
       map_.surfaces(), states, *settings.heat, settings.weather, manifest,
       {.parts = terms.parts, .variation = terms.variation, .place = by_place, .facing = terms.facing},
-      look_of, settings.seed);
+      appearance_of, settings.seed);
   middle_s_ = middle_s(manifest);
   std::map<const Material*, std::size_t> table_of;
   for (std::size_t i = 0; i < map_.surfaces().size(); ++i) {

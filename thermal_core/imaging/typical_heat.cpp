@@ -18,7 +18,7 @@ namespace thermal {
 namespace {
 
 using Temperatures = std::map<std::string, std::map<std::string, double>>;
-using Shifts = std::vector<SceneOutline::PlaceShift>;
+using Shifts = std::vector<SceneOutline::ExposureShift>;
 
 /// State of an actor on open soil.
 BodyMoment open_moment(const Weather& weather, const Temperatures& temperatures) {
@@ -88,12 +88,12 @@ class Columns {
         forcing_(forcing_of_day(weather.day, HeatSteps().per_day)),
         ground_k_(open_soil_k()) {}
 
-  [[nodiscard]] SurfacePlace open() const { return {.moisture = moisture_}; }
+  [[nodiscard]] SurfaceExposure open() const { return {.moisture = moisture_}; }
 
-  [[nodiscard]] double at_k(const MaterialHeat& heat, const SurfacePlace& place) const {
+  [[nodiscard]] double at_k(const MaterialHeat& heat, const SurfaceExposure& exposure) const {
     const auto* leaves = std::get_if<LeavesHeat>(&heat);
     const GroundHeat& below = ground(leaves == nullptr ? "soil" : leaves->ground);
-    return day_of(heat, below, place, {.forcing = forcing_, .ground_k = ground_k_}, {}).at_k(solar_h_);
+    return day_of(heat, below, exposure, {.forcing = forcing_, .ground_k = ground_k_}, {}).at_k(solar_h_);
   }
 
  private:
@@ -115,13 +115,13 @@ class Columns {
 /// Estimates: as much ground lies beside crowns as below them, half as much is seen between and below them, and the
 /// shore that water moistens is as large as the water.
 Shifts cover_places(const Columns& columns, const MaterialHeat& heat, const Shares& shares) {
-  SurfacePlace beside = columns.open();
+  SurfaceExposure beside = columns.open();
   beside.sky_view = 0.75;
   beside.sunlit = 0.7;
-  SurfacePlace below = columns.open();
+  SurfaceExposure below = columns.open();
   below.sky_view = 0.3;
   below.sunlit = 0.35;
-  SurfacePlace shore = columns.open();
+  SurfaceExposure shore = columns.open();
   shore.moisture = std::max(shore.moisture, 0.6);
   const double open_k = columns.at_k(heat, columns.open());
   return {{0, std::max(0.0, 1 - 1.5 * shares.crowns - shares.water)},
@@ -133,13 +133,13 @@ Shifts cover_places(const Columns& columns, const MaterialHeat& heat, const Shar
 /// Leaves at depths below the top of a crown; a camera above sees mostly the highest (estimates).
 Shifts crown_places(const Columns& columns, const LeavesHeat& heat) {
   constexpr std::pair<double, double> kDepths[] = {{0, 0.4}, {0.25, 0.3}, {0.5, 0.2}, {1, 0.1}};
-  SurfacePlace place = columns.open();
-  place.sky_view = kMiddleOfCrown;
-  const double middle_k = columns.at_k(heat, place);
+  SurfaceExposure exposure = columns.open();
+  exposure.sky_view = kMiddleOfCrown;
+  const double middle_k = columns.at_k(heat, exposure);
   Shifts shifts;
   for (const auto& [depth_m, share] : kDepths) {
-    place.sky_view = diffuse_through_leaves(heat.leaf_density_m2_m3 * depth_m);
-    shifts.push_back({columns.at_k(heat, place) - middle_k, share});
+    exposure.sky_view = diffuse_through_leaves(heat.leaf_density_m2_m3 * depth_m);
+    shifts.push_back({columns.at_k(heat, exposure) - middle_k, share});
   }
   return shifts;
 }
@@ -149,9 +149,9 @@ Shifts facing_of(const Columns& columns, const MaterialHeat& heat, bool is_body)
   const double up_k = columns.at_k(heat, columns.open());
   Shifts shifts;
   for (const double aspect_deg : kAspectsDeg) {
-    SurfacePlace place = columns.open();
-    place.normal = tilted(is_body ? 90 : 5, aspect_deg);
-    shifts.push_back({columns.at_k(heat, place) - up_k, 0.25});
+    SurfaceExposure exposure = columns.open();
+    exposure.normal = tilted(is_body ? 90 : 5, aspect_deg);
+    shifts.push_back({columns.at_k(heat, exposure) - up_k, 0.25});
   }
   return shifts;
 }
@@ -170,44 +170,44 @@ double fireside_k(const Surroundings& around) {
 }
 
 void add_shifts(const Columns& columns, const Material& material, const Shares& shares,
-                SceneOutline::Night& night) {
+                SceneOutline::Conditions& viewing) {
   const MaterialHeat& heat = *material.heat;
   if (const auto* leaves = std::get_if<LeavesHeat>(&heat); leaves != nullptr && !leaves->is_cover) {
-    night.by_place[material.name] = crown_places(columns, *leaves);
+    viewing.by_exposure[material.name] = crown_places(columns, *leaves);
     return;
   }
   const auto* ground = std::get_if<GroundHeat>(&heat);
   const auto* slab = std::get_if<SlabHeat>(&heat);
   const bool is_body = (ground != nullptr && ground->is_body) || (slab != nullptr && slab->is_body);
-  if (slab == nullptr || is_body) night.facing[material.name] = facing_of(columns, heat, is_body);
-  if (slab == nullptr && !is_body) night.by_place[material.name] = cover_places(columns, heat, shares);
+  if (slab == nullptr || is_body) viewing.facing[material.name] = facing_of(columns, heat, is_body);
+  if (slab == nullptr && !is_body) viewing.by_exposure[material.name] = cover_places(columns, heat, shares);
 }
 
 }  // namespace
 
-void heat_night(const std::vector<SceneOutline::Cover>& covers, const MaterialLibrary& library,
-                SceneOutline::Night& night) {
+void heat_conditions(const std::vector<SceneOutline::Cover>& covers, const MaterialLibrary& library,
+                SceneOutline::Conditions& viewing) {
   std::vector<const Material*> materials;
   for (const SceneOutline::Cover& cover : covers) materials.push_back(cover.material);
-  night.heated_k = open_temperatures_k(materials, library, night.weather);
+  viewing.heated_k = open_temperatures_k(materials, library, viewing.weather);
   const Shares shares = shares_of(covers);
-  const Columns columns(library, night.weather);
-  const BodyMoment moment = open_moment(night.weather, night.heated_k);
-  if (night.weather.inversion_by_balance && !night.looks.empty()) {
-    const SceneOutline::Look& look = night.looks.front();
-    night.weather.air.inversion_k = std::min(
+  const Columns columns(library, viewing.weather);
+  const BodyMoment moment = open_moment(viewing.weather, viewing.heated_k);
+  if (viewing.weather.inversion_by_balance && !viewing.view_directions.empty()) {
+    const SceneOutline::ViewDirection& direction = viewing.view_directions.front();
+    viewing.weather.air.inversion_k = std::min(
         kLargestInversionK,
-        StableAir(moment.around.forcing, moment.around.ground_k).warmer_k(look.range_m * look.ground_cosine));
+        StableAir(moment.around.forcing, moment.around.ground_k).warmer_k(direction.range_m * direction.ground_cosine));
   }
   for (const Material* material : materials) {
     if (const BodyHeat* body = material->body_heat_of("")) {
       if (std::holds_alternative<FirePart>(*body)) {
-        night.by_place[material->name] = {{0, 0.5}, {fireside_k(moment.around), 0.5}};
+        viewing.by_exposure[material->name] = {{0, 0.5}, {fireside_k(moment.around), 0.5}};
       } else {
-        night.facing[material->name] = facing_of(*body, moment);
+        viewing.facing[material->name] = facing_of(*body, moment);
       }
     } else if (material->heat) {
-      add_shifts(columns, *material, shares, night);
+      add_shifts(columns, *material, shares, viewing);
     }
   }
 }

@@ -32,13 +32,13 @@ GeoPosition geo_position_of(const Position& position, double most_deg) {
 }  // namespace
 
 void add_earth(py::module_& module) {
-  py::class_<PlaceOnEarth>(module, "PlaceOnEarth")
-      .def(py::init([](const Position& origin) { return PlaceOnEarth(geo_position_of(origin, 89)); }),
+  py::class_<Georeference>(module, "Georeference")
+      .def(py::init([](const Position& origin) { return Georeference(geo_position_of(origin, 89)); }),
            py::arg("origin"))
       .def(
           "point_at",
-          [](const PlaceOnEarth& place, const Position& position) {
-            return place.point_at(geo_position_of(position, 90));
+          [](const Georeference& georeference, const Position& position) {
+            return georeference.point_at(geo_position_of(position, 90));
           },
           py::arg("position"));
 }

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "base/error.h"
-#include "base/hand_over.h"
+#include "base/happens_before.h"
 #include "raycast/engine_version.h"
 
 namespace thermal {

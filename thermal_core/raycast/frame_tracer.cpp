@@ -68,14 +68,14 @@ T* samples_of(std::vector<T>& list, bool wanted, std::size_t samples) {
   return wanted ? list.data() : nullptr;
 }
 
-/// Planes or lists as destinations; `place_in` allocates one if it is needed.
-template <typename Sights, typename PlaceIn>
-SightSink sink_for(Sights& out, bool indices, bool depth, bool normals, const PlaceIn& place_in) {
-  return {.object_index = place_in(out.object_index, indices),
-          .material_index = place_in(out.material_index, indices),
-          .depth_m = place_in(out.depth_m, depth),
-          .normal = {place_in(out.normal[0], normals), place_in(out.normal[1], normals),
-                     place_in(out.normal[2], normals)}};
+/// Planes or lists as destinations; `destination_in` allocates one if it is needed.
+template <typename Sights, typename DestinationIn>
+SightSink sink_for(Sights& out, bool indices, bool depth, bool normals, const DestinationIn& destination_in) {
+  return {.object_index = destination_in(out.object_index, indices),
+          .material_index = destination_in(out.material_index, indices),
+          .depth_m = destination_in(out.depth_m, depth),
+          .normal = {destination_in(out.normal[0], normals), destination_in(out.normal[1], normals),
+                     destination_in(out.normal[2], normals)}};
 }
 
 /// One thread's caches of a shot's triangles.
@@ -93,11 +93,11 @@ class RayTracer {
   /// Actors first, for the actor layer; their hits then bound the search among the surroundings.
   void trace(const Packet& rays, TriangleCaches& caches) const {
     const VectorLanes<double> direction = directions(shot_.view, rays.x, rays.y);
-    RayPacket packet = aimed(shot_.view, direction, shot_.place.scene().depth_range_m);
+    RayPacket packet = aimed(shot_.view, direction, shot_.accelerator.scene().depth_range_m);
     FirstHitSearch first(direction, caches.seen);
     if (rays.near_actors) first.search(shot_.actors, 0, rays.mask, packet);
     if (sink_.actor_index != nullptr) put_actors(first.hits(), rays);
-    first.search(shot_.place.surroundings(), shot_.first_surrounding(), rays.mask, packet);
+    first.search(shot_.accelerator.surroundings(), shot_.first_surrounding(), rays.mask, packet);
     put_sights(direction, first.hits(), rays, caches.seen, sink_.seen);
     if (sink_.mirrored.is_wanted()) trace_mirrored(direction, first.hits(), rays, caches);
   }
@@ -116,8 +116,8 @@ class RayTracer {
     std::array<bool, kLanes> wet{};
     Lanes<double> height_m{};
     for (std::size_t k = 0; k < rays.rays; ++k) {
-      const std::size_t place = rays.places[k];
-      if (!shot_.place.is_water(sink_.seen.object_index[place], sink_.seen.material_index[place])) continue;
+      const std::size_t target = rays.places[k];
+      if (!shot_.accelerator.is_water(sink_.seen.object_index[target], sink_.seen.material_index[target])) continue;
       if (hits.piece[k] == kNoPiece || !(direction[2][k] < 0)) continue;
       wet[k] = true;
       height_m[k] = caches.seen.at(hits.piece[k], hits.triangle[k]).height_m;
@@ -139,10 +139,10 @@ class RayTracer {
     const Shot& shot = mirror.shot();
     const VectorLanes<double> direction = directions(shot.view, rays.x, rays.y);
     RayPacket packet =
-        aimed(shot.view, direction, mirror.depths_m(direction), shot.place.scene().depth_range_m[1]);
+        aimed(shot.view, direction, mirror.depths_m(direction), shot.accelerator.scene().depth_range_m[1]);
     FirstHitSearch first(direction, mirror.triangles());
     first.search(shot.actors, 0, rays.mask, packet);
-    first.search(shot.place.surroundings(), shot.first_surrounding(), rays.mask, packet);
+    first.search(shot.accelerator.surroundings(), shot.first_surrounding(), rays.mask, packet);
     const auto is_sky = [](unsigned piece) { return piece == kNoPiece; };
     if (std::ranges::all_of(first.hits().piece, is_sky)) return;
     put_sights(direction, first.hits(), rays, mirror.triangles(), sink_.mirrored.room());
@@ -164,10 +164,10 @@ class RayTracer {
     see_triangles(direction, lanes, sights);
     for (std::size_t k = 0; k < rays.rays; ++k) {
       const bool sky = hits.piece[k] == kNoPiece;
-      const std::size_t place = rays.places[k];
-      if (sink.depth_m != nullptr) sink.depth_m[place] = sky ? kSkyDepthM : sights.depth_m[k];
+      const std::size_t target = rays.places[k];
+      if (sink.depth_m != nullptr) sink.depth_m[target] = sky ? kSkyDepthM : sights.depth_m[k];
       for (std::size_t axis = 0; sink.normal[0] != nullptr && axis < 3; ++axis)
-        sink.normal[axis][place] = sky ? 0.0F : sights.normal[axis][k];
+        sink.normal[axis][target] = sky ? 0.0F : sights.normal[axis][k];
     }
   }
 
@@ -185,8 +185,8 @@ void trace_row(const RayTracer& tracer, const PixelRays& rays, const Plane<std::
     const std::size_t x_px = fine.x_px[begin + pixel];
     for (std::size_t k = 0; k < side * side; ++k) {
       const std::size_t line = k / side;
-      const std::size_t place = fine.line_begin(row, static_cast<int>(line)) + pixel * side + k % side;
-      packet.add(rays.at(x_px * side + k % side, static_cast<std::size_t>(row) * side + line), place);
+      const std::size_t target = fine.line_begin(row, static_cast<int>(line)) + pixel * side + k % side;
+      packet.add(rays.at(x_px * side + k % side, static_cast<std::size_t>(row) * side + line), target);
       packet.near_actors |= near_actors.at(static_cast<int>(x_px), row) != 0;
       if (!packet.is_full()) continue;
       tracer.trace(packet, caches);
@@ -200,7 +200,7 @@ void trace_row(const RayTracer& tracer, const PixelRays& rays, const Plane<std::
 
 void trace_pixels(const Shot& shot, const PixelRays& rays, const Plane<std::uint8_t>& near_actors,
                   const PassNeeds& needs, Passes& out) {
-  const bool mirrored = needs.mirrored && shot.place.has_water();
+  const bool mirrored = needs.mirrored && shot.accelerator.has_water();
   const auto pixels = [&](auto& plane, bool wanted) { return pixels_of(plane, wanted, rays); };
   MirrorSink mirrors(mirrored, [&] {
     set_to_sky(out.mirrored, rays.width_px(), rays.height_px());
@@ -227,7 +227,7 @@ void trace_samples(const Shot& shot, const PixelRays& rays, const Plane<std::uin
                    const PassNeeds& needs, FineSamples& fine) {
   const auto side = static_cast<std::size_t>(fine.factor);
   const std::size_t samples = side * side * fine.x_px.size();
-  const bool mirrored = needs.mirrored && shot.place.has_water();
+  const bool mirrored = needs.mirrored && shot.accelerator.has_water();
   const auto list = [&](auto& values, bool wanted) { return samples_of(values, wanted, samples); };
   MirrorSink mirrors(mirrored, [&] {
     set_to_sky(fine.mirrored, samples);

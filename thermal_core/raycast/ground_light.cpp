@@ -10,7 +10,7 @@
 #include "base/parallel.h"
 #include "base/rng.h"
 #include "raycast/embree.h"
-#include "raycast/place.h"
+#include "raycast/scene_accelerator.h"
 #include "raycast/ray_caster.h"
 #include "raycast/shading_part.h"
 #include "raycast/sky_rays.h"
@@ -96,8 +96,8 @@ std::uint32_t hours_of(const SunHours& sun) noexcept {
 
 class LightTracer {
  public:
-  LightTracer(const Place& place, std::span<const SunDay> days, const BlockRays& rays, GroundMaps& maps)
-      : scene_(place.surroundings().scene.get()), days_(days), rays_(rays), maps_(maps) {
+  LightTracer(const SceneAccelerator& accelerator, std::span<const SunDay> days, const BlockRays& rays, GroundMaps& maps)
+      : scene_(accelerator.surroundings().scene.get()), days_(days), rays_(rays), maps_(maps) {
     for (const std::size_t count : rays)
       if (count > 0) sky_.try_emplace(count, count);
   }
@@ -233,7 +233,7 @@ void trace_ground_light(const RayCaster& caster, std::span<const SunDay> days, c
     blocks.push_back(number);
     total += cells_in(number, maps.cells);
   }
-  const LightTracer tracer(caster.place(), days, rays, maps);
+  const LightTracer tracer(caster.accelerator(), days, rays, maps);
   const std::size_t part = std::max(kLeastPart, blocks.size() / kParts);
   std::size_t done = 0;
   for (std::size_t first = 0; first < blocks.size(); first += part) {

@@ -16,7 +16,7 @@ class Mirror {
  public:
   Mirror(const Shot& shot, double height_m)
       : height_m_(height_m),
-        shot_{.place = shot.place, .actors = shot.actors, .view = mirrored(shot.view, height_m)},
+        shot_{.accelerator = shot.accelerator, .actors = shot.actors, .view = mirrored(shot.view, height_m)},
         triangles_(shot_) {}
   Mirror(const Mirror&) = delete;
   Mirror& operator=(const Mirror&) = delete;

@@ -5,7 +5,7 @@
 #include "raycast/first_hit.h"
 #include "raycast/frame_tracer.h"
 #include "raycast/mirrored_sky.h"
-#include "raycast/place.h"
+#include "raycast/scene_accelerator.h"
 #include "raycast/refinement.h"
 #include "scene/camera_geometry.h"
 
@@ -40,13 +40,13 @@ void even_out(Passes& passes) {
 }  // namespace
 
 RayCaster::RayCaster(const BakedScene& scene)
-    : place_(std::make_unique<const Place>(scene, FirstHitSearch::keep_first)) {}
+    : accelerator_(std::make_unique<const SceneAccelerator>(scene, FirstHitSearch::keep_first)) {}
 RayCaster::~RayCaster() = default;
 RayCaster::RayCaster(RayCaster&&) noexcept = default;
 RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
 
 CameraTracer::CameraTracer(const RayCaster& caster, const CameraIntrinsics& camera, const Sampling& sampling)
-    : place_(caster.place()),
+    : accelerator_(caster.accelerator()),
       pixel_rays_(std::make_unique<const PixelRays>(
           sampling.adaptive ? camera : finer(camera, sampling.supersample), sampling.lens)),
       sample_rays_(sampling.adaptive && sampling.supersample > 1
@@ -56,10 +56,10 @@ CameraTracer::CameraTracer(const RayCaster& caster, const CameraIntrinsics& came
 CameraTracer::~CameraTracer() = default;
 
 void CameraTracer::trace(const BakedMoment& now, const PassNeeds& needs, Passes& out) const {
-  const PieceSet actors = place_.set_of(actors_in(place_.scene(), now));
-  const Shot shot = {.place = place_, .actors = actors, .view = view_of(now.camera_to_world)};
-  const Plane<std::uint8_t> near_actors = pixels_near(actors.pieces, place_, shot.view, *pixel_rays_);
-  const bool sees_water = may_see(place_.waters(), place_, shot.view, *pixel_rays_);
+  const PieceSet actors = accelerator_.set_of(actors_in(accelerator_.scene(), now));
+  const Shot shot = {.accelerator = accelerator_, .actors = actors, .view = view_of(now.camera_to_world)};
+  const Plane<std::uint8_t> near_actors = pixels_near(actors.pieces, accelerator_, shot.view, *pixel_rays_);
+  const bool sees_water = may_see(accelerator_.waters(), accelerator_, shot.view, *pixel_rays_);
   PassNeeds of_samples = needs;
   of_samples.depth |= needs.depth_if_there;
   of_samples.mirrored &= sees_water;
@@ -76,6 +76,6 @@ void CameraTracer::trace(const BakedMoment& now, const PassNeeds& needs, Passes&
 
 ClipTracer::ClipTracer(const RayCaster& caster, const BakedTrack& track, const CameraIntrinsics& camera,
                        const Sampling& sampling)
-    : moments_(caster.place().scene(), track), tracer_(caster, camera, sampling) {}
+    : moments_(caster.accelerator().scene(), track), tracer_(caster, camera, sampling) {}
 
 }  // namespace thermal

@@ -11,7 +11,7 @@
 namespace thermal {
 
 class PixelRays;
-class Place;
+class SceneAccelerator;
 
 /// The engine `embree`: a baked scene prepared for ray casting.
 class RayCaster {
@@ -23,10 +23,10 @@ class RayCaster {
   RayCaster(RayCaster&&) noexcept;
   RayCaster& operator=(RayCaster&&) noexcept;
 
-  [[nodiscard]] const Place& place() const noexcept { return *place_; }
+  [[nodiscard]] const SceneAccelerator& accelerator() const noexcept { return *accelerator_; }
 
  private:
-  std::unique_ptr<const Place> place_;
+  std::unique_ptr<const SceneAccelerator> accelerator_;
 };
 
 /// Ray positions of a picture.
@@ -54,7 +54,7 @@ class CameraTracer {
   void trace(const BakedMoment& now, const PassNeeds& needs, Passes& out) const;
 
  private:
-  const Place& place_;
+  const SceneAccelerator& accelerator_;
   std::unique_ptr<const PixelRays> pixel_rays_;
   std::unique_ptr<const PixelRays> sample_rays_;  ///< adaptive
   int supersample_;

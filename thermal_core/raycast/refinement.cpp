@@ -41,9 +41,9 @@ Range pixels_at(const LensRange& directions, const PixelRays& rays) {
 }
 
 /// The pixels that a piece may cover; all if unknown.
-Range pixels_of(const Piece& piece, const Place& place, const View& view, const PixelRays& rays) {
+Range pixels_of(const Piece& piece, const SceneAccelerator& accelerator, const View& view, const PixelRays& rays) {
   constexpr double kLeastDepthM = 1e-3;
-  const MeshBox& box = place.box(piece.mesh);
+  const MeshBox& box = accelerator.box(piece.mesh);
   LensRange directions;
   for (unsigned corner = 0; corner < 8; ++corner) {
     const Vector3 point =
@@ -98,20 +98,20 @@ void mark_pairs(const Passes& passes, int row, int other, int shift, Plane<std::
 
 }  // namespace
 
-Plane<std::uint8_t> pixels_near(const std::vector<Piece>& pieces, const Place& place, const View& view,
+Plane<std::uint8_t> pixels_near(const std::vector<Piece>& pieces, const SceneAccelerator& accelerator, const View& view,
                                 const PixelRays& rays) {
   Plane<std::uint8_t> near(rays.width_px(), rays.height_px());
   for (const Piece& piece : pieces) {
-    const Range range = pixels_of(piece, place, view, rays);
+    const Range range = pixels_of(piece, accelerator, view, rays);
     for (int y = range.top; y < range.bottom; ++y)
       std::fill(near.row(y).begin() + range.left, near.row(y).begin() + range.right, std::uint8_t{1});
   }
   return near;
 }
 
-bool may_see(const std::vector<Piece>& pieces, const Place& place, const View& view, const PixelRays& rays) {
+bool may_see(const std::vector<Piece>& pieces, const SceneAccelerator& accelerator, const View& view, const PixelRays& rays) {
   return std::ranges::any_of(
-      pieces, [&](const Piece& piece) { return !pixels_of(piece, place, view, rays).is_empty(); });
+      pieces, [&](const Piece& piece) { return !pixels_of(piece, accelerator, view, rays).is_empty(); });
 }
 
 void choose_pixels(const Passes& passes, const Plane<std::uint8_t>& near_actors, FineSamples& fine) {

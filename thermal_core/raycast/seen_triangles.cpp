@@ -4,8 +4,8 @@ namespace thermal {
 
 SeenTriangle SeenTriangles::seen(unsigned number_of_piece, unsigned number) const noexcept {
   const Piece& piece = shot_.piece(number_of_piece);
-  const BakedMesh& mesh = shot_.place.scene().meshes[piece.mesh];
-  const auto& normals = shot_.place.normals(piece.mesh);
+  const BakedMesh& mesh = shot_.accelerator.scene().meshes[piece.mesh];
+  const auto& normals = shot_.accelerator.normals(piece.mesh);
   std::array<Vector3, 3> corner_m;
   std::array<Vector3, 3> normal;
   for (std::size_t which = 0; which < 3; ++which) {

@@ -26,9 +26,9 @@ class SeenTriangles {
 
   /// A triangle of a piece of the shot; valid until the next call.
   const SeenTriangle& at(unsigned piece, unsigned number) noexcept {
-    SeenTriangle& place = kept_[(31 * piece + number) % kept_.size()];
-    if (place.piece != piece || place.number != number) place = seen(piece, number);
-    return place;
+    SeenTriangle& accelerator = kept_[(31 * piece + number) % kept_.size()];
+    if (accelerator.piece != piece || accelerator.number != number) accelerator = seen(piece, number);
+    return accelerator;
   }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "raycast/place.h"
+#include "raycast/scene_accelerator.h"
 #include "raycast/vectors.h"
 
 namespace thermal {
@@ -9,7 +9,7 @@ inline constexpr unsigned kNoPiece = ~0U;  ///< number of a piece that does not 
 
 /// A frame to be traced: scene, actors in their poses, camera.
 struct Shot {
-  const Place& place;
+  const SceneAccelerator& accelerator;
   const PieceSet& actors;
   View view;
 
@@ -19,7 +19,7 @@ struct Shot {
   }
   [[nodiscard]] const Piece& piece(unsigned number) const noexcept {
     return number < first_surrounding() ? actors.pieces[number]
-                                        : place.surroundings().pieces[number - first_surrounding()];
+                                        : accelerator.surroundings().pieces[number - first_surrounding()];
   }
 };
 

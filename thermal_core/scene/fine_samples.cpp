@@ -84,7 +84,7 @@ Passes filled_in(const Passes& passes) {
   return full;
 }
 
-Plane<std::uint16_t> sampled_places(const FineSamples& fine, int width_px) {
+Plane<std::uint16_t> sampled_mask(const FineSamples& fine, int width_px) {
   const auto rows = static_cast<int>(fine.row_begin.size()) - 1;
   return filled(Plane<std::uint16_t>(width_px, rows), std::vector<std::uint16_t>(fine.object_index.size(), 1),
                 fine);

@@ -21,7 +21,7 @@ namespace thermal {
 [[nodiscard]] Passes filled_in(const Passes& passes);
 
 /// Which pixels have samples of their own: 1 there, 0 elsewhere, of the expanded size.
-[[nodiscard]] Plane<std::uint16_t> sampled_places(const FineSamples& fine, int width_px);
+[[nodiscard]] Plane<std::uint16_t> sampled_mask(const FineSamples& fine, int width_px);
 
 /// The reverse: planes with factor x factor samples a pixel become those with one, and samples of the pixels for which
 /// `sampled` is not 0. Only the upper left sample of a pixel counts, in `sampled` and where a pixel keeps one. Sides are

@@ -104,16 +104,16 @@ LensPoint unproject(const CameraIntrinsics& camera, const LensDistortion& lens,
 int overscan_px(const CameraIntrinsics& camera, const LensDistortion& lens) {
   if (lens.is_none()) return 0;
   double most_px = 0;
-  const auto look = [&](int x, int y) {
+  const auto check = [&](int x, int y) {
     most_px = std::max(most_px, excess_px(camera, lens, x + 0.5, y + 0.5));
   };
   for (int x = 0; x < camera.width_px; ++x) {
-    look(x, 0);
-    look(x, camera.height_px - 1);
+    check(x, 0);
+    check(x, camera.height_px - 1);
   }
   for (int y = 0; y < camera.height_px; ++y) {
-    look(0, y);
-    look(camera.width_px - 1, y);
+    check(0, y);
+    check(camera.width_px - 1, y);
   }
   if (most_px > kMostOverscanPx) {
     throw ConfigError(

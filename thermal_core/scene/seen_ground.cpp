@@ -101,7 +101,7 @@ class SeenGround {
   }
 
   /// Visits a tile of blocks from (row, column) on.
-  void look_at(std::size_t row, std::size_t column, std::vector<float>& pixels_m) const {
+  void visit_tile(std::size_t row, std::size_t column, std::vector<float>& pixels_m) const {
     const std::size_t side = blocks_along(maps_.cells);
     const std::size_t rows = std::min(kTileBlocks, side - row);
     const std::size_t columns = std::min(kTileBlocks, side - column);
@@ -177,7 +177,7 @@ std::vector<float> finest_pixels_m(const BakedScene& scene, const GroundMaps& ma
   const SeenGround ground(scene, maps, views);
   parallel_for(tiles * tiles, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t tile = begin; tile < end; ++tile)
-      ground.look_at(tile / tiles * kTileBlocks, tile % tiles * kTileBlocks, pixels_m);
+      ground.visit_tile(tile / tiles * kTileBlocks, tile % tiles * kTileBlocks, pixels_m);
   });
   return pixels_m;
 }

@@ -78,9 +78,9 @@ struct Orbit {
 };
 
 /// Offsets of core and halo, as multiples of a step.
-class Places {
+class Offsets {
  public:
-  Places(int reach_px, bool quarters) : quarters_(quarters), radius_(quarters ? 2 * reach_px - 1 : reach_px) {
+  Offsets(int reach_px, bool quarters) : quarters_(quarters), radius_(quarters ? 2 * reach_px - 1 : reach_px) {
     add(
         false, radius_, [&](int step) { return offset_px(step); }, reach_px + 0.3);
     add(
@@ -126,15 +126,15 @@ struct NormalEquations {
 /// One row of the least squares per frequency: the transfer of each orbit's offsets.
 class Rows {
  public:
-  Rows(const OpticsTransfer& lens, const PixelSampling& sampling, const Places& places)
-      : frequencies_(sampling.quarters ? 1 : 0.5), places_(places), lens_(lens) {
+  Rows(const OpticsTransfer& lens, const PixelSampling& sampling, const Offsets& offsets)
+      : frequencies_(sampling.quarters ? 1 : 0.5), offsets_(offsets), lens_(lens) {
     for (const double f : frequencies_.at) {
       samples_.push_back(sample_transfer(sampling, f));
       blocks_.push_back(block_transfer(f) * pixel_transfer(sampling, f));
     }
-    const int steps = std::max(places.radius(), kHaloRadius) + 1;
+    const int steps = std::max(offsets.radius(), kHaloRadius) + 1;
     for (int step = 0; step < steps; ++step) {
-      core_.push_back(cosines(places.offset_px(step)));
+      core_.push_back(cosines(offsets.offset_px(step)));
       halo_.push_back(cosines(1.0 * kHaloBlockPx * step));
     }
   }
@@ -147,7 +147,7 @@ class Rows {
     const double samples = samples_[i] * samples_[j];
     const double blocks = blocks_[i] * blocks_[j];
     for (std::size_t k = 0; k < row.size(); ++k) {
-      const Orbit& orbit = places_.orbits()[k];
+      const Orbit& orbit = offsets_.orbits()[k];
       const auto& waves = orbit.is_halo ? halo_ : core_;
       const std::vector<double>& a = waves[static_cast<std::size_t>(orbit.a)];
       const std::vector<double>& b = waves[static_cast<std::size_t>(orbit.b)];
@@ -171,7 +171,7 @@ class Rows {
   }
 
   Frequencies frequencies_;
-  const Places& places_;
+  const Offsets& offsets_;
   const OpticsTransfer& lens_;
   std::vector<double> samples_;
   std::vector<double> blocks_;
@@ -229,13 +229,13 @@ std::vector<double> solve_positive(const NormalEquations& sums, const std::vecto
 
 /// Fit for one radius.
 struct Fit {
-  Places places;
+  Offsets offsets;
   std::vector<double> weights;  ///< of its orbits
   double misfit = 0;            ///< of the transfer, up to Nyquist
 
   [[nodiscard]] double weight_of(bool is_halo, int right, int down) const {
     for (std::size_t k = 0; k < weights.size(); ++k) {
-      const Orbit& orbit = places.orbits()[k];
+      const Orbit& orbit = offsets.orbits()[k];
       if (orbit.is_halo == is_halo && orbit.a == std::max(right, down) && orbit.b == std::min(right, down))
         return weights[k];
     }
@@ -258,10 +258,10 @@ double worst_misfit(const Rows& rows, const std::vector<double>& weights) {
 }
 
 Fit fit_of(const OpticsTransfer& lens, const PixelSampling& sampling, int reach_px) {
-  Fit fit = {.places = Places(reach_px, sampling.quarters), .weights = {}};
-  const Rows rows(lens, sampling, fit.places);
+  Fit fit = {.offsets = Offsets(reach_px, sampling.quarters), .weights = {}};
+  const Rows rows(lens, sampling, fit.offsets);
   std::vector<double> counts;
-  for (const Orbit& orbit : fit.places.orbits()) counts.push_back(fit.places.count(orbit));
+  for (const Orbit& orbit : fit.offsets.orbits()) counts.push_back(fit.offsets.count(orbit));
   fit.weights = solve_positive(normal_equations(rows, counts.size()), counts);
   fit.misfit = worst_misfit(rows, fit.weights);
   return fit;

@@ -20,7 +20,7 @@ constexpr int kReachPx = 3;            // of the interpolation
 constexpr double kLeastWeight = 1e-3;  // of a sample that is kept
 
 struct Node {
-  double place = 0;  ///< 0 to 1 within the interval
+  double position = 0;  ///< 0 to 1 within the interval
   double weight = 0;
 };
 
@@ -41,7 +41,7 @@ std::vector<Node> legendre_nodes(int count) {
       slope = count * (x * value - before) / (x * x - 1);
       x -= value / slope;
     }
-    nodes.push_back({.place = (1 - x) / 2, .weight = 1 / ((1 - x * x) * slope * slope)});
+    nodes.push_back({.position = (1 - x) / 2, .weight = 1 / ((1 - x * x) * slope * slope)});
   }
   return nodes;
 }
@@ -100,9 +100,9 @@ class Interpolation {
   }
 
   [[nodiscard]] Weights at(double fraction) const {
-    const double place = fraction * kSteps;
-    const auto step = static_cast<std::size_t>(std::min(place, kSteps - 1.0));
-    const double share = place - static_cast<double>(step);
+    const double position = fraction * kSteps;
+    const auto step = static_cast<std::size_t>(std::min(position, kSteps - 1.0));
+    const double share = position - static_cast<double>(step);
     Weights weights{};
     mix_weights(all_.at(step).data(), all_.at(step + 1).data(), share, weights.data());
     return weights;
@@ -120,8 +120,8 @@ struct Way {
   double x_px = 0;
   double y_px = 0;
 
-  [[nodiscard]] double x_at(double place) const noexcept { return from_x_px + place * x_px; }
-  [[nodiscard]] double y_at(double place) const noexcept { return from_y_px + place * y_px; }
+  [[nodiscard]] double x_at(double position) const noexcept { return from_x_px + position * x_px; }
+  [[nodiscard]] double y_at(double position) const noexcept { return from_y_px + position * y_px; }
   [[nodiscard]] double length_px() const noexcept { return std::hypot(x_px, y_px); }
 };
 
@@ -173,8 +173,8 @@ class TapGrid {
 std::vector<SmearTap> short_taps(const Way& way, double ages) {
   TapGrid grid(way);
   for (const Node& node : nodes_of(6 + static_cast<int>(std::ceil(1.5 * way.length_px())))) {
-    const double density = ages * std::exp(-ages * node.place) / -std::expm1(-ages);
-    grid.add(way.x_at(node.place), way.y_at(node.place), node.weight * density);
+    const double density = ages * std::exp(-ages * node.position) / -std::expm1(-ages);
+    grid.add(way.x_at(node.position), way.y_at(node.position), node.weight * density);
   }
   return grid.taps();
 }
@@ -193,12 +193,12 @@ std::vector<SmearTap> long_taps(const Way& way, double ages) {
   std::vector<SmearTap> taps;
   taps.reserve(4 * static_cast<std::size_t>(steps));
   for (int i = 0; i < steps; ++i) {
-    const double place =
+    const double position =
         steps * (age_integral((i + 1.0) / steps, ages) - age_integral(static_cast<double>(i) / steps, ages));
-    const double x = std::floor(way.x_at(place));
-    const double y = std::floor(way.y_at(place));
-    const double right = way.x_at(place) - x;
-    const double down = way.y_at(place) - y;
+    const double x = std::floor(way.x_at(position));
+    const double y = std::floor(way.y_at(position));
+    const double right = way.x_at(position) - x;
+    const double down = way.y_at(position) - y;
     for (int corner = 0; corner < 4; ++corner) {
       const double share = (corner % 2 == 1 ? right : 1 - right) * (corner / 2 == 1 ? down : 1 - down);
       taps.push_back({.x_px = static_cast<int>(x) + corner % 2,

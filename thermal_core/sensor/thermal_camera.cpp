@@ -232,15 +232,15 @@ double ThermalCamera::noise_w_m2_sr(int x_px, int y_px) const {
                     gain_w_m2_sr_);
 }
 
-void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out, const Look& look) {
-  expose(radiance_w_m2_sr, {}, {}, out, look);
+void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out, const TakeSignal& take_signal) {
+  expose(radiance_w_m2_sr, {}, {}, out, take_signal);
 }
 
 void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, const SubpixelDetail& detail,
-                           const ImageMotion& motion, SensorFrame& out, const Look& look) {
+                           const ImageMotion& motion, SensorFrame& out, const TakeSignal& take_signal) {
   const std::uint32_t native = frame_++ * native_.step;
   take_in(radiance_w_m2_sr, detail);
-  if (look) look(signal_);
+  if (take_signal) take_signal(signal_);
   if (smear_ && begun_) smear_->apply(motion, signal_);
   if (smear_ && !begun_) smear_->apply_to_first(motion, signal_);
   if (!begun_) begin();

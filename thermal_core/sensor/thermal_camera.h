@@ -69,7 +69,7 @@ class ThermalCamera {
   };
 
   /// Receives a radiance plane [W m^-2 sr^-1], valid only during the call.
-  using Look = std::function<void(const Plane<float>& radiance_w_m2_sr)>;
+  using TakeSignal = std::function<void(const Plane<float>& radiance_w_m2_sr)>;
 
   /// @param brightest_w_m2_sr  radiance of level 255 in the AGC modes scene_max and table_max, > 0
   /// @param temperatures  apparent_temperatures() of the parameters' response; null: the camera makes its own
@@ -84,10 +84,10 @@ class ThermalCamera {
   /// within the exposure, if there is a time constant. The pictures are then late by a time constant on average, as a
   /// membrane's signal is; without it, they mix this frame and those before.
   void expose(const Plane<float>& radiance_w_m2_sr, const SubpixelDetail& detail, const ImageMotion& motion,
-              SensorFrame& out, const Look& look = {});
+              SensorFrame& out, const TakeSignal& take_signal = {});
 
   /// The same without detail and motion.
-  void expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out, const Look& look = {});
+  void expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out, const TakeSignal& take_signal = {});
 
   /// The same, into a new frame.
   [[nodiscard]] SensorFrame expose(const Plane<float>& radiance_w_m2_sr);

@@ -36,12 +36,12 @@ TEST_CASE("At its nodes, a table has the temperatures of the columns it is made 
   for (const double sky_view : {0.1, 0.4, 1.0}) {
     for (const double sunlit : {0.0, 1.0}) {
       for (const double moisture : {0.0, 0.25, 1.0}) {
-        const SurfacePlace place = {.sky_view = sky_view, .sunlit = sunlit, .moisture = moisture};
-        const SurfaceDay column = day_of(soil, soil, place, {.forcing = forcing}, kCoarse);
+        const SurfaceExposure exposure = {.sky_view = sky_view, .sunlit = sunlit, .moisture = moisture};
+        const SurfaceDay column = day_of(soil, soil, exposure, {.forcing = forcing}, kCoarse);
         for (const double hour : {3.0, 13.5}) {
           CAPTURE(sky_view, sunlit, moisture, hour);
           // Weights and sums of a few dozen doubles near 300.
-          CHECK_THAT(day.at(hour, {"soil"}).materials.at("soil").temperature_k(place),
+          CHECK_THAT(day.at(hour, {"soil"}).materials.at("soil").temperature_k(exposure),
                      WithinAbs(column.at_k(hour), 1e-9));
         }
       }
@@ -178,11 +178,11 @@ TEST_CASE("A sheet in the sun is fitted within 0.6 K in all directions, at any h
     const double z = 1 - (k + 0.5) / 20;
     const double turn = 2.39996 * k;  // even over the sphere
     const double level = std::sqrt(1 - z * z);
-    const SurfacePlace place = {.normal = {level * std::sin(turn), level * std::cos(turn), z}};
-    const SurfaceDay exact = day_of(steel, soil, place, {forcing, open.surface_k}, kCoarse);
+    const SurfaceExposure exposure = {.normal = {level * std::sin(turn), level * std::cos(turn), z}};
+    const SurfaceDay exact = day_of(steel, soil, exposure, {forcing, open.surface_k}, kCoarse);
     for (const double hour : {8.0, 10.0, 12.0, 14.0, 16.0}) {
       CAPTURE(k, hour);
-      CHECK(std::abs(day.at(hour, {"steel"}).materials.at("steel").temperature_k(place) - exact.at_k(hour)) <
+      CHECK(std::abs(day.at(hour, {"steel"}).materials.at("steel").temperature_k(exposure) - exact.at_k(hour)) <
             0.6);
     }
   }

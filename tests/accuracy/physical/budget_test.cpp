@@ -41,8 +41,8 @@ constexpr PublishedRow kPublished[] = {{"soil", {1601, -35, -49}, {3284, 288, 42
                                        {"truck", {4214, 179, 252}, {7702, 231, 340}}};
 
 void check_night(const Material& material, const Weather& weather, const Shifts& expected) {
-  const MaterialShift near = shift_of(material, {.weather = weather, .looks = {}}, 61, kBand);
-  const MaterialShift far = shift_of(material, {.weather = weather, .looks = {}}, 122, kBand);
+  const MaterialShift near = shift_of(material, {.weather = weather, .view_directions = {}}, 61, kBand);
+  const MaterialShift far = shift_of(material, {.weather = weather, .view_directions = {}}, 122, kBand);
   CAPTURE(material.name, weather.air.temperature_k);
   // To the printed digit: half a mK.
   CHECK_THAT(1e3 * near.sky_k, WithinAbs(expected.sky, 0.5));
@@ -72,7 +72,7 @@ SceneOutline savanna_from(double range_m) {
   SceneOutline outline;
   outline.covers = {
       {&material("soil"), 0.5, false}, {&material("grass"), 0.4, false}, {&material("human"), 0.1, true}};
-  outline.nights = {{.weather = kWinter, .looks = {{range_m, 1, 1}}}};
+  outline.conditions = {{.weather = kWinter, .view_directions = {{range_m, 1, 1}}}};
   return outline;
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("The air is dropped for a tripod 5 m away and kept for a drone at 61 m
   const Budget tripod = weigh_terms(ground, kAllAuto);
   CHECK_FALSE(tripod.kept.path);
   CHECK(effect(tripod, "path").spread_k < ground.netd_k / 3);
-  ground.nights[0].looks[0].range_m = 61;
+  ground.conditions[0].view_directions[0].range_m = 61;
   CHECK(weigh_terms(ground, kAllAuto).kept.path);
 }
 
@@ -124,7 +124,7 @@ TEST_CASE("Other surfaces reflect sky, blackbodies do not") {
   const Material other = made_of("lamp black", 1);
   const Material grey = made_of("rock", 0.9);
   SceneOutline outline;
-  outline.nights = {{.weather = kWinter, .looks = {{61, 1, 1}}}};
+  outline.conditions = {{.weather = kWinter, .view_directions = {{61, 1, 1}}}};
   outline.covers = {{&black, 0.5, false}, {&other, 0.5, false}};
   const Budget of_black = weigh_terms(outline, kAllAuto);
   CHECK_FALSE(of_black.kept.sky);
@@ -180,7 +180,7 @@ TEST_CASE("An impossible term is an error if switched on, and none if switched o
 
 TEST_CASE("With unknown viewing directions, terms that depend on them have no effect") {
   SceneOutline outline = savanna_from(61);
-  outline.nights[0].looks.clear();
+  outline.conditions[0].view_directions.clear();
   const Budget budget = weigh_terms(outline, kAllAuto);
   CHECK(effect(budget, "path").spread_k == 0);
   CHECK(effect(budget, "sky").spread_k == 0);
@@ -214,7 +214,7 @@ TEST_CASE("The worst of several nights decides for all frames") {
   SceneOutline outline = savanna_from(5);
   outline.covers.pop_back();
   const double near_k = effect(weigh_terms(outline, kAllAuto), "path").spread_k;
-  outline.nights.push_back({.weather = kSummer, .looks = {{122, 1, 1}}});
+  outline.conditions.push_back({.weather = kSummer, .view_directions = {{122, 1, 1}}});
   const Budget both = weigh_terms(outline, kAllAuto);
   // Soil against grass in summer, by the table: 425 - 68 mK.
   CHECK_THAT(1e3 * effect(both, "path").spread_k, WithinAbs(425 - 68, 1));
@@ -224,7 +224,7 @@ TEST_CASE("The worst of several nights decides for all frames") {
 
 TEST_CASE("Angles matter for water seen at several angles, not for plants") {
   SceneOutline outline;
-  outline.nights = {{.weather = kWinter, .looks = {{61, 1, 1}, {80, 0.7, 1}, {120, 0.4, 1}}}};
+  outline.conditions = {{.weather = kWinter, .view_directions = {{61, 1, 1}, {80, 0.7, 1}, {120, 0.4, 1}}}};
   outline.covers = {{&material("water"), 1, false}};
   CHECK(weigh_terms(outline, kAllAuto).kept.angular);
   outline.covers = {{&material("grass"), 1, false}};
@@ -233,7 +233,7 @@ TEST_CASE("Angles matter for water seen at several angles, not for plants") {
 
 TEST_CASE("What water mirrors counts where there is water, seen at a slant, under a reflected sky") {
   SceneOutline outline = savanna_from(61);
-  outline.nights[0].looks = {{122, 0.5, 1}};
+  outline.conditions[0].view_directions = {{122, 0.5, 1}};
   const Budget dry = weigh_terms(outline, kAllAuto);
   CHECK(effect(dry, "mirror").spread_k == 0);
   CHECK_FALSE(dry.kept.mirror);
@@ -249,13 +249,13 @@ TEST_CASE("What water mirrors counts where there is water, seen at a slant, unde
   CHECK(effect(wet, "mirror").spread_k < 3.2);
 
   // Straight down, water mirrors the sky alone.
-  outline.nights[0].looks = {{61, 1, 1}};
+  outline.conditions[0].view_directions = {{61, 1, 1}};
   CHECK(effect(weigh_terms(outline, kAllAuto), "mirror").spread_k == 0);
 }
 
 TEST_CASE("Nothing is mirrored without the sky's reflection") {
   SceneOutline outline = savanna_from(61);
-  outline.nights[0].looks = {{122, 0.5, 1}};
+  outline.conditions[0].view_directions = {{122, 0.5, 1}};
   TermChoices choices = kAllAuto;
   choices.sky = TermChoice::off;
   CHECK(effect(weigh_terms(outline, choices), "mirror").impossible.empty());
@@ -268,7 +268,7 @@ TEST_CASE("Nothing is mirrored without the sky's reflection") {
 
 TEST_CASE("Fall-off is measured by its effect on noise: cos^-4 of the NETD towards the corners") {
   SceneOutline outline = savanna_from(61);
-  outline.nights[0].looks = {{61, 1, 1}, {64, 0.95, std::cos(22.5 * 3.14159265358979 / 180)}};
+  outline.conditions[0].view_directions = {{61, 1, 1}, {64, 0.95, std::cos(22.5 * 3.14159265358979 / 180)}};
   const Budget budget = weigh_terms(outline, kAllAuto);
   // cos^4 of 22.5 deg is .729 to the printed digits: noise is 1 / .729 - 1 = .372 of the NETD higher.
   CHECK_THAT(effect(budget, "falloff").spread_k / outline.netd_k, WithinAbs(0.372, 0.001));
@@ -277,7 +277,7 @@ TEST_CASE("Fall-off is measured by its effect on noise: cos^-4 of the NETD towar
 
 TEST_CASE("Variation spreads by 3.3 standard deviations, as a normal distribution does from 5 % to 95 %") {
   SceneOutline outline;
-  outline.nights = {{.weather = kWinter, .looks = {{61, 1, 1}}}};
+  outline.conditions = {{.weather = kWinter, .view_directions = {{61, 1, 1}}}};
   outline.covers = {{&material("soil"), 1, false}};
   // Of ten equal weights the lowest and the highest hold 5 % at their middles: 2 * 1.645 standard deviations.
   const double stddev_k = material("soil").variation.stddev_k;
@@ -299,9 +299,9 @@ TEST_CASE("Parts are measured over actors only") {
 TEST_CASE("What places do to the ground counts by how much of the pictures lies there") {
   SceneOutline outline = savanna_from(61);
   // Nine tenths of the soil, half of the pictures, lie open; grass does not care: 5 % at 4 K, and none at more.
-  outline.nights.front().by_place["soil"] = {{0, 0.88}, {4, 0.12}};
+  outline.conditions.front().by_exposure["soil"] = {{0, 0.88}, {4, 0.12}};
   CHECK(effect(weigh_terms(outline, kAllAuto), "place").spread_k == 4);
-  outline.nights.front().by_place["soil"] = {{0, 0.98}, {4, 0.02}};
+  outline.conditions.front().by_exposure["soil"] = {{0, 0.98}, {4, 0.02}};
   const Budget level = weigh_terms(outline, kAllAuto);
   CHECK(effect(level, "place").spread_k == 0);
   CHECK_FALSE(level.kept.place);
@@ -310,9 +310,9 @@ TEST_CASE("What places do to the ground counts by how much of the pictures lies 
 
 TEST_CASE("The sides of actors count beside all else, however small actors are") {
   SceneOutline outline = savanna_from(61);
-  outline.nights.front().facing["soil"] = {{-0.1, 0.5}, {0.1, 0.5}};
+  outline.conditions.front().facing["soil"] = {{-0.1, 0.5}, {0.1, 0.5}};
   CHECK_THAT(effect(weigh_terms(outline, kAllAuto), "facing").spread_k, WithinAbs(0.2, 1e-12));
-  outline.nights.front().facing["human"] = {{-1.5, 0.5}, {1, 0.5}};
+  outline.conditions.front().facing["human"] = {{-1.5, 0.5}, {1, 0.5}};
   const Budget budget = weigh_terms(outline, kAllAuto);
   CHECK(effect(budget, "facing").spread_k == 2.5);
   CHECK(effect(budget, "facing").actor_shift_k == 1.5);

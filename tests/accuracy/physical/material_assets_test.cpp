@@ -5,7 +5,7 @@
 #include "io/json/file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace material_assets_test {
 
@@ -42,7 +42,7 @@ class Home {
   }
 
  private:
-  TemporaryFolder folder_;
+  TestFolder folder_;
 };
 
 /// A material with a few optional keys.

@@ -6,7 +6,7 @@
 #include "dataset/clip/record.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace clip_files_test {
 
@@ -27,7 +27,7 @@ std::string without(const Path& folder, const std::string& message) {
 
 /// Of the document with one value changed, `pointer` a JSON pointer; null removes it.
 std::string label_fault(const std::string& pointer, const Json& value) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Json document = parse_json(kLabels, "");
   document[Json::json_pointer(pointer)] = value;
   (void)folder.file("labels.json", document.dump());
@@ -36,7 +36,7 @@ std::string label_fault(const std::string& pointer, const Json& value) {
 }
 
 std::string frame_fault(const std::string& lines) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   (void)folder.file("frames.jsonl", lines);
   return without(folder.path(),
                  message_of<DataError>([&] { for_clip_frames(folder.path(), [](int, const Json&) {}); }));
@@ -45,7 +45,7 @@ std::string frame_fault(const std::string& lines) {
 }  // namespace
 
 TEST_CASE("Annotations are handed over with their frame and category") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   (void)folder.file("labels.json", kLabels);
   int count = 0;
   for_clip_labels(folder.path(), [&](int frame_index, const std::string& category, const std::string& text) {
@@ -78,7 +78,7 @@ TEST_CASE("An annotation that readers could not use is refused with its place") 
 
 TEST_CASE("Lines of frames are checked") {
   const std::string good = R"({"frame_index": 3, "time_s": 0.1, "ffc": false, "camera_to_world": null})";
-  const TemporaryFolder folder;
+  const TestFolder folder;
   (void)folder.file("frames.jsonl", good + "\n" + R"({"frame_index": 5, "time_s": 0.2, "ffc": true})" + "\n");
   std::vector<int> frames;
   for_clip_frames(folder.path(), [&](int frame_index, const Json&) { frames.push_back(frame_index); });
@@ -93,7 +93,7 @@ TEST_CASE("Lines of frames are checked") {
 }
 
 TEST_CASE("Links in a clip are not followed") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path elsewhere = folder.file("elsewhere", kLabels);
   const Path clip = folder.path() / "clip";
   std::filesystem::create_directory(clip);

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace dataset_file_test {
 
@@ -12,7 +12,7 @@ using namespace thermal;
 namespace {
 
 std::string fault_of(const std::string& content) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("dataset.json", content);
   return message_of<DataError>([&] { (void)read_dataset_file(folder.path()); }).substr(file.string().size());
 }
@@ -24,7 +24,7 @@ std::string clips_fault(const std::string& clips) {
 }  // namespace
 
 TEST_CASE("A dataset's file is read as it is") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   (void)folder.file("dataset.json",
                     R"({"format": "veldt-dataset", "veldt_version": "1",
                         "config": {"name": "n", "seed": 1, "sensor": {"kelvin_per_count": 0.01}},

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "support/catch.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 #include "support/two_clips.h"
 
 namespace dataset_index_test {
@@ -12,7 +12,7 @@ using namespace thermal;
 namespace {
 
 struct Place {
-  TemporaryFolder folder;
+  TestFolder folder;
   Layout layout{folder.path()};
   Config config = two_clips::config();
 

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace frame_source_test {
 
@@ -12,7 +12,7 @@ using namespace thermal;
 namespace {
 
 /// Labels of a picture 1.png in each of these folders, the box of the nth n px wide, beside the folders.
-Path write_labels(const TemporaryFolder& place, const std::vector<std::string>& folders) {
+Path write_labels(const TestFolder& place, const std::vector<std::string>& folders) {
   std::string images;
   std::string annotations;
   for (std::size_t k = 0; k < folders.size(); ++k) {
@@ -29,7 +29,7 @@ Path write_labels(const TemporaryFolder& place, const std::vector<std::string>& 
 }  // namespace
 
 TEST_CASE("Of pictures of one name, a folder has its own") {
-  const TemporaryFolder place;
+  const TestFolder place;
   (void)write_labels(place, {"day", "night"});
   for (const std::string folder : {"day", "night"}) {
     std::filesystem::create_directory(place / folder);
@@ -42,7 +42,7 @@ TEST_CASE("Of pictures of one name, a folder has its own") {
 }
 
 TEST_CASE("A picture of several names elsewhere is a fault") {
-  const TemporaryFolder place;
+  const TestFolder place;
   const Path labels = write_labels(place, {"day", "night"});
   std::filesystem::create_directory(place / "other");
   (void)place.file("other/1.png", "a picture");

@@ -4,7 +4,7 @@
 #include "io/system/sha256.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace joined_annotations_test {
 
@@ -103,7 +103,7 @@ TEST_CASE("Images may precede what they refer to") {
 }
 
 TEST_CASE("Labels of clips become a file with a checksum, and no other file is left") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Layout layout{folder.path()};
   make_folder(layout.clip("a"));
   (void)folder.file("clips/a/labels.json", to_text(document_of({0, 1})));
@@ -129,7 +129,7 @@ TEST_CASE("Numbers that no clip of ours has are named") {
 }
 
 TEST_CASE("Damaged or missing labels are named, and the existing file stays") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Layout layout{folder.path()};
   make_folder(layout.clip("a"));
   (void)folder.file("annotations.json", "before");

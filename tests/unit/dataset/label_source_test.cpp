@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace label_source_test {
 
@@ -18,7 +18,7 @@ const char* const kLabels = R"({"categories": [{"id": 1, "name": "human"}],
   "annotations": [{"id": 1, "image_id": 1, "category_id": 1, "bbox": [0, 0, 9, 9]}]})";
 
 /// A dataset of two clips; `rest` goes into its record.
-void write_dataset(const TemporaryFolder& folder, const std::string& status_of_b, const std::string& rest) {
+void write_dataset(const TestFolder& folder, const std::string& status_of_b, const std::string& rest) {
   (void)folder.file("annotations.json", kLabels);
   (void)folder.file("dataset.json", fmt::format(R"({{"format": "veldt-dataset", "veldt_version": "1", {}
       "config": {{"name": "savanna", "seed": 1, "sensor": {{"kelvin_per_count": 0.01}}}},
@@ -37,7 +37,7 @@ const std::string kSummed = R"("annotations_sha256": "0", )";
 }  // namespace
 
 TEST_CASE("A finished dataset's labels have its name and size classes") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   write_dataset(folder, "done", kSummed);
   const LabelSet set = read_labels(folder.path());
   CHECK(set.name == "savanna");
@@ -47,7 +47,7 @@ TEST_CASE("A finished dataset's labels have its name and size classes") {
 }
 
 TEST_CASE("A dataset with missing clips is refused, or read as it is") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   write_dataset(folder, "pending", kSummed);
   CHECK(fault_of(folder.path()) ==
         " is unfinished: 1 of 2 clips are missing: b; expected all of them, or --unfinished to accept this");
@@ -55,7 +55,7 @@ TEST_CASE("A dataset with missing clips is refused, or read as it is") {
 }
 
 TEST_CASE("A dataset whose labels are not joined yet is refused") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   write_dataset(folder, "done", "");
   for (const bool unfinished_too : {false, true}) {
     CHECK(fault_of(folder.path(), unfinished_too) ==
@@ -65,7 +65,7 @@ TEST_CASE("A dataset whose labels are not joined yet is refused") {
 }
 
 TEST_CASE("A COCO file and a BIRDSAI folder are labels, too") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   CHECK(read_labels(folder.file("val.json", kLabels)).name == "val");
   std::filesystem::create_directories(folder / "real/annotations");
   (void)folder.file("real/annotations/v.csv", "0,1,0,0,50,50,0,1,0,0\n");
@@ -75,7 +75,7 @@ TEST_CASE("A COCO file and a BIRDSAI folder are labels, too") {
 }
 
 TEST_CASE("A source without labels is reported") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   CHECK(
       fault_of(folder.path()) ==
       " holds no labels; expected a Veldt dataset (dataset.json), a BIRDSAI folder (annotations/*.csv) or a "

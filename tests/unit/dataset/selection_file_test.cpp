@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace selection_file_test {
 
@@ -27,7 +27,7 @@ Selection two_datasets() {
 
 /// The error for this text, without the file's name.
 std::string fault_of(const std::string& text) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("s.json", text);
   const std::string message = message_of<DataError>([&] { (void)read_selection(file); });
   const std::string name = file.string() + ":";
@@ -43,7 +43,7 @@ std::string with_videos(const std::string& videos) {
 }  // namespace
 
 TEST_CASE("a selection is read as it was written") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.path() / "s.json";
   write_selection(file, two_datasets());
   const Selection read = read_selection(file);
@@ -67,7 +67,7 @@ TEST_CASE("a selection is read as it was written") {
 }
 
 TEST_CASE("a selection written by hand needs only the frames") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("s.json", with_videos(R"({"name": "one", "frames": [1, 3]})"));
   const Selection read = read_selection(file);
   CHECK(read.classes.empty());
@@ -94,7 +94,7 @@ TEST_CASE("an invalid selection is reported") {
 }
 
 TEST_CASE("a dataset finds its part by path, otherwise by name") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Selection selection = two_datasets();
   const auto part_of = [&](const Path& path, const std::string& name) {
     return selection_for(selection, "s.json", path, name).path;

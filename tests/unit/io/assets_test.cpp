@@ -6,7 +6,7 @@
 #include "io/system/child_process.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace assets_test {
 
@@ -30,7 +30,7 @@ class Environment {
   std::string before_;
 };
 
-Path program_in(const TemporaryFolder& folder, const std::string& name) {
+Path program_in(const TestFolder& folder, const std::string& name) {
   Path file = folder.file(name, "#!/bin/sh\n");
   std::filesystem::permissions(file, std::filesystem::perms::owner_all);
   return file;
@@ -39,8 +39,8 @@ Path program_in(const TemporaryFolder& folder, const std::string& name) {
 }  // namespace
 
 TEST_CASE("A program is found on the path, in the first folder that has it") {
-  const TemporaryFolder first;
-  const TemporaryFolder second;
+  const TestFolder first;
+  const TestFolder second;
   const Path only_second = program_in(second, "render");
   const Path in_both = program_in(first, "plan");
   (void)program_in(second, "plan");
@@ -52,7 +52,7 @@ TEST_CASE("A program is found on the path, in the first folder that has it") {
 }
 
 TEST_CASE("A program with a folder is that one or none") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path program = program_in(folder, "blender");
   CHECK(find_program(program.string()) == program);
   CHECK(find_program(folder.path().string()).empty());
@@ -60,7 +60,7 @@ TEST_CASE("A program with a folder is that one or none") {
 }
 
 TEST_CASE("The home is VELDT_HOME, if that is one") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Environment home("VELDT_HOME", folder.path().string());
   CHECK(message_of<IoError>([] { (void)Assets::find(); }) ==
         "VELDT_HOME = \"" + folder.path().string() + "\"; expected a folder with assets and blender_scripts");

@@ -5,7 +5,7 @@
 #include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace manifest_file_test {
 
@@ -30,7 +30,7 @@ Json example() {
 }
 
 std::string fault_in(const Json& document) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("manifest.json", document.dump());
   const std::string message = message_of<DataError>([&] { (void)read_manifest(file, kAssets); });
   const std::string name = file.string() + ": ";
@@ -40,7 +40,7 @@ std::string fault_in(const Json& document) {
 }  // namespace
 
 TEST_CASE("All fields of a manifest are read") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Manifest manifest = read_manifest(folder.file("manifest.json", example().dump()), kAssets);
   CHECK(manifest.clip == "night_1");
   CHECK(manifest.seed == 4294967295);
@@ -72,7 +72,7 @@ TEST_CASE("Passes can be finer than the camera and extend further") {
   Json document = example();
   document["supersample"] = 2;
   document["overscan_px"] = 12;
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Manifest manifest = read_manifest(folder.file("manifest.json", document.dump()), kAssets);
   CHECK(manifest.supersample == 2);
   CHECK(manifest.overscan_px == 12);
@@ -80,7 +80,7 @@ TEST_CASE("Passes can be finer than the camera and extend further") {
 
 TEST_CASE("Passes can follow a lens, whose coefficients are 0 where they are not given") {
   Json document = example();
-  const TemporaryFolder folder;
+  const TestFolder folder;
   CHECK(read_manifest(folder.file("pinhole.json", document.dump()), kAssets).lens.is_none());
   document["camera"]["distortion"] = {{"k1", -0.2}, {"p2", 0.001}};
   const Manifest manifest = read_manifest(folder.file("manifest.json", document.dump()), kAssets);
@@ -117,7 +117,7 @@ TEST_CASE("Faults of a manifest are reported with their place") {
 }
 
 TEST_CASE("A manifest that is not JSON is a DataError, with line and column") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("manifest.json", "{\n");
   CHECK_THAT(message_of<DataError>([&] { (void)read_manifest(file, kAssets); }),
              StartsWith(file.string() + ":2:1: not JSON: "));
@@ -129,7 +129,7 @@ TEST_CASE("A missing manifest cannot be read") {
 }
 
 TEST_CASE("A written manifest is read back the same") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Json document = example();
   document["of_flight"] = "north";
   document["layer"] = "Scene";

@@ -27,16 +27,16 @@ thermal::ManifestObject named(std::uint16_t index, const std::string& material) 
   return object;
 }
 
-thermal::BakedScene with_objects(const Scenery& place) {
-  thermal::BakedScene scene = place.baked();
+thermal::BakedScene with_objects(const Scenery& accelerator) {
+  thermal::BakedScene scene = accelerator.baked();
   scene.objects = {named(kGround, "soil"), named(kWater, "water"), named(kTree, "wood")};
   scene.mirrors = {"water"};
   return scene;
 }
 
-Passes seen(const Scenery& place, Clip clip, const thermal::PassNeeds& needs = kMirrored,
+Passes seen(const Scenery& accelerator, Clip clip, const thermal::PassNeeds& needs = kMirrored,
             const thermal::Sampling& sampling = {}) {
-  const thermal::BakedScene scene = with_objects(place);
+  const thermal::BakedScene scene = with_objects(accelerator);
   const thermal::RayCaster caster(scene);
   const thermal::BakedTrack track = clip.baked();
   Passes passes;
@@ -48,12 +48,12 @@ Passes seen(const Scenery& place, Clip clip, const thermal::PassNeeds& needs = k
 /// beside it.
 Scenery shore(double water_m) {
   const auto base = static_cast<float>(water_m);
-  Scenery place;
-  place.surface(kGround, shapes::level(400, 4, 0, water_m - 2));
-  place.surface(kWater, shapes::level(200, 4, 0, water_m));
-  place.plant(kTree, shapes::box({-4, 19.5F, base - 1}, {-3, 20.5F, base + 4}, 0), kIdentity);
-  place.actor({shapes::box({3, 19.5F, base - 1}, {4, 20.5F, base + 4}, 0)});
-  return place;
+  Scenery accelerator;
+  accelerator.surface(kGround, shapes::level(400, 4, 0, water_m - 2));
+  accelerator.surface(kWater, shapes::level(200, 4, 0, water_m));
+  accelerator.plant(kTree, shapes::box({-4, 19.5F, base - 1}, {-3, 20.5F, base + 4}, 0), kIdentity);
+  accelerator.actor({shapes::box({3, 19.5F, base - 1}, {4, 20.5F, base + 4}, 0)});
+  return accelerator;
 }
 
 Clip from(double height_m) {
@@ -140,12 +140,12 @@ TEST_CASE("A mirrored front faces the ray that comes from the water") {
 }
 
 TEST_CASE("Waters of several heights each mirror at their own") {
-  Scenery place;
-  place.surface(kWater, shapes::box({-30, -20, -1}, {0, 19, 0}, 0));
-  place.surface(kWater, shapes::box({0, -20, -1}, {30, 19, 2}, 0));
-  place.plant(kTree, shapes::box({-30, 19.5F, -1}, {30, 20.5F, 5}, 0), kIdentity);
+  Scenery accelerator;
+  accelerator.surface(kWater, shapes::box({-30, -20, -1}, {0, 19, 0}, 0));
+  accelerator.surface(kWater, shapes::box({0, -20, -1}, {30, 19, 2}, 0));
+  accelerator.plant(kTree, shapes::box({-30, 19.5F, -1}, {30, 20.5F, 5}, 0), kIdentity);
   Clip clip = {.camera_to_world = {looking({0, -30, 12}, {0, 12, 0})}, .poses = {}};
-  const Passes passes = seen(place, clip);
+  const Passes passes = seen(accelerator, clip);
   int left = 0;
   int right = 0;
   for (int x = 0; x < kCamera.width_px; ++x) {
@@ -211,10 +211,10 @@ TEST_CASE("Adaptive sampling has all samples at mirrored silhouettes, whatever i
 
 TEST_CASE("What samples alone see mirrored is also said of pixels, which mirror sky") {
   // Between the middles of two columns of pixels, over their inner samples.
-  Scenery place;
-  place.surface(kWater, shapes::level(200, 4, 0, 0));
-  place.actor({shapes::box({-0.05F, 19.5F, -1}, {0.05F, 20.5F, 4}, 0)});
-  const Passes passes = seen(place, from(8), kMirrored, {.supersample = 3, .adaptive = true});
+  Scenery accelerator;
+  accelerator.surface(kWater, shapes::level(200, 4, 0, 0));
+  accelerator.actor({shapes::box({-0.05F, 19.5F, -1}, {0.05F, 20.5F, 4}, 0)});
+  const Passes passes = seen(accelerator, from(8), kMirrored, {.supersample = 3, .adaptive = true});
   CHECK(std::ranges::count(passes.fine.mirrored.object_index, kFirstActor) > 20);
   REQUIRE(passes.mirrored.object_index.size() == passes.object_index.size());
   CHECK(std::ranges::count(passes.mirrored.object_index.pixels(), 0) ==

@@ -10,7 +10,7 @@ namespace thermal {
 namespace {
 
 constexpr std::uint32_t kHalvings = 20;       // whose mean scatters by about a tenth; estimate
-constexpr std::uint32_t kToldHalvings = 5;    // each trains five forests
+constexpr std::uint32_t kClassifierHalvings = 5;    // each trains five forests
 constexpr std::uint32_t kFirstHalving = 100;  // classifiers use the draws below
 
 MeasuredFrames all_of(const SetFigures& set) {
@@ -66,15 +66,15 @@ void classify_halves(const SetFigures& real, TableOf table_of, std::size_t featu
                      Classification& classified) {
   Discrimination mean = {.auc = 0, .error = 0};
   std::vector<double> alone(features);
-  for (std::uint32_t draw = 0; draw < kToldHalvings; ++draw) {
+  for (std::uint32_t draw = 0; draw < kClassifierHalvings; ++draw) {
     const Halves halves = halves_of(real.frames, seed, kFirstHalving + draw);
     const FeatureTable first = table_of(halves.first);
     const FeatureTable second = table_of(halves.second);
     if (!has_two_units(first) || !has_two_units(second)) return;
     const Discrimination one = discriminate(first, second, features, seed);
-    mean.auc += one.auc / kToldHalvings;
-    mean.error += one.error / kToldHalvings;
-    for (const Importance& feature : one.importances) alone[feature.feature] += feature.alone / kToldHalvings;
+    mean.auc += one.auc / kClassifierHalvings;
+    mean.error += one.error / kClassifierHalvings;
+    for (const Importance& feature : one.importances) alone[feature.feature] += feature.alone / kClassifierHalvings;
   }
   classified.real_halves = mean;
   classified.halves_alone = std::move(alone);

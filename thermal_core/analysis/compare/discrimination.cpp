@@ -62,10 +62,10 @@ cv::Ptr<cv::ml::RTrees> trained(const Cases& cases, std::size_t left_out) {
   cv::Mat features;
   cv::Mat targets;
   for (int k = 0; k < cases.count(); ++k) {
-    const auto place = static_cast<std::size_t>(k);
-    if (cases.parts[place] == left_out) continue;
+    const auto index = static_cast<std::size_t>(k);
+    if (cases.parts[index] == left_out) continue;
     features.push_back(cases.features.row(k));
-    targets.push_back(cases.targets[place]);
+    targets.push_back(cases.targets[index]);
   }
   const auto forest = cv::ml::RTrees::create();
   forest->setMaxDepth(kDepth);
@@ -164,7 +164,7 @@ std::vector<double> known_values(const FeatureTable& table, std::size_t feature)
   return values;
 }
 
-double told_alone(const FeatureTable& first, const FeatureTable& second, std::size_t feature) {
+double separation_alone(const FeatureTable& first, const FeatureTable& second, std::size_t feature) {
   const WonPairs pairs = won_pairs(known_values(first, feature), known_values(second, feature));
   return pairs.pairs > 0 ? 0.5 + std::abs(pairs.won / pairs.pairs - 0.5) : 0.5;
 }
@@ -204,7 +204,7 @@ Discrimination discriminate(const FeatureTable& first, const FeatureTable& secon
     for (std::size_t part = begin; part < end; ++part) results[part] = tested(cases, part, seed);
   });
   Discrimination found = summed_up(results);
-  for (Importance& one : found.importances) one.alone = told_alone(first, second, one.feature);
+  for (Importance& one : found.importances) one.alone = separation_alone(first, second, one.feature);
   sort_importances(found.importances);
   found.error =
       standard_error(found.auc, static_cast<double>(units_in(first)), static_cast<double>(units_in(second)));

@@ -21,13 +21,13 @@ struct FeatureTable {
 [[nodiscard]] std::vector<double> known_values(const FeatureTable& table, std::size_t feature);
 
 /// Area under the curve of one feature alone, in the direction that separates better: .5 or more.
-[[nodiscard]] double told_alone(const FeatureTable& first, const FeatureTable& second, std::size_t feature);
+[[nodiscard]] double separation_alone(const FeatureTable& first, const FeatureTable& second, std::size_t feature);
 
 /// Contribution of a feature.
 struct Importance {
   std::size_t feature = 0;
   double fall = 0;  ///< decrease of the area under the curve when its values are shuffled among the test rows
-  double alone = 0.5;  ///< told_alone()
+  double alone = 0.5;  ///< separation_alone()
 };
 
 /// Separability of two sets by a classifier.

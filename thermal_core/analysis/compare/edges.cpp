@@ -41,11 +41,11 @@ double steepness_at(const Plane<float>& frame, int x, int y) {
 }
 
 /// Whether no neighbour is steeper: the steepest pixel of a cell may be the flank of an edge in the next cell.
-bool is_peak(const Plane<float>& frame, const Steepest& place) {
+bool is_peak(const Plane<float>& frame, const Steepest& peak) {
   constexpr double kRounding = 1 + 1e-6;
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
-      if (steepness_at(frame, place.x + dx, place.y + dy) > kRounding * place.steepness) return false;
+      if (steepness_at(frame, peak.x + dx, peak.y + dy) > kRounding * peak.steepness) return false;
     }
   }
   return true;
@@ -76,14 +76,14 @@ std::vector<Steepest> candidates_of(const Plane<float>& frame) {
 }
 
 /// The direction across an edge, towards its higher side; empty if the gradients around it vary.
-std::optional<Gradient> normal_at(const Plane<float>& frame, const Steepest& place) {
+std::optional<Gradient> normal_at(const Plane<float>& frame, const Steepest& peak) {
   constexpr int kHalf = 4;
   double xx = 0;
   double yy = 0;
   double xy = 0;
   for (int dy = -kHalf; dy <= kHalf; ++dy) {
     for (int dx = -kHalf; dx <= kHalf; ++dx) {
-      const Gradient gradient = gradient_at(frame, place.x + dx, place.y + dy);
+      const Gradient gradient = gradient_at(frame, peak.x + dx, peak.y + dy);
       xx += gradient.x * gradient.x;
       yy += gradient.y * gradient.y;
       xy += gradient.x * gradient.y;
@@ -91,7 +91,7 @@ std::optional<Gradient> normal_at(const Plane<float>& frame, const Steepest& pla
   }
   if (std::hypot(xx - yy, 2 * xy) < kStraight * (xx + yy)) return {};
   const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
-  const Gradient own = gradient_at(frame, place.x, place.y);
+  const Gradient own = gradient_at(frame, peak.x, peak.y);
   const double sign = own.x * std::cos(angle) + own.y * std::sin(angle) < 0 ? -1 : 1;
   return Gradient{sign * std::cos(angle), sign * std::sin(angle)};
 }
@@ -103,7 +103,7 @@ struct Sample {
 };
 
 /// Mean levels in bins across an edge; bins without pixels are left out.
-std::vector<Sample> profile_of(const Plane<float>& frame, const Steepest& place, const Gradient& normal) {
+std::vector<Sample> profile_of(const Plane<float>& frame, const Steepest& peak, const Gradient& normal) {
   std::vector<Sample> bins(static_cast<std::size_t>(2 * kReachPx / kBinPx) + 1);
   for (int dy = -kMarginPx; dy <= kMarginPx; ++dy) {
     for (int dx = -kMarginPx; dx <= kMarginPx; ++dx) {
@@ -112,7 +112,7 @@ std::vector<Sample> profile_of(const Plane<float>& frame, const Steepest& place,
       if (std::abs(along) > kAlongPx || std::abs(across) > kReachPx) continue;
       Sample& bin = bins[static_cast<std::size_t>(std::lround((across + kReachPx) / kBinPx))];
       bin.place_px += across;
-      bin.level += static_cast<double>(frame.at(place.x + dx, place.y + dy));
+      bin.level += static_cast<double>(frame.at(peak.x + dx, peak.y + dy));
       bin.count += 1;
     }
   }
@@ -209,11 +209,11 @@ std::optional<Edge> edge_of(const std::vector<Sample>& profile) {
 
 std::vector<Edge> straight_edges(const Plane<float>& frame) {
   std::vector<Edge> edges;
-  for (const Steepest& place : candidates_of(frame)) {
+  for (const Steepest& peak : candidates_of(frame)) {
     if (edges.size() == kMostEdges) break;
-    const auto normal = normal_at(frame, place);
+    const auto normal = normal_at(frame, peak);
     if (!normal) continue;
-    if (const auto edge = edge_of(profile_of(frame, place, *normal))) edges.push_back(*edge);
+    if (const auto edge = edge_of(profile_of(frame, peak, *normal))) edges.push_back(*edge);
   }
   return edges;
 }

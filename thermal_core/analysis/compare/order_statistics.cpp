@@ -8,13 +8,13 @@ namespace thermal {
 
 double quantile_of(std::vector<double> values, double share) {
   if (values.empty()) return 0;
-  const double place = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
+  const double position = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(below);
   std::nth_element(values.begin(), at, values.end());
   if (below + 1 == values.size()) return *at;
   const double above = *std::min_element(at + 1, values.end());
-  return *at + (place - static_cast<double>(below)) * (above - *at);
+  return *at + (position - static_cast<double>(below)) * (above - *at);
 }
 
 double median_of(std::vector<double> values) { return quantile_of(std::move(values), 0.5); }

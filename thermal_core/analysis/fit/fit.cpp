@@ -14,7 +14,7 @@
 #include "analysis/fit/fitted_keys.h"
 #include "analysis/fit/stored_radiance.h"
 #include "base/error.h"
-#include "io/system/passing_folder.h"
+#include "io/system/temporary_folder.h"
 
 namespace thermal {
 namespace {
@@ -59,11 +59,11 @@ std::vector<double> quantiles_of(std::vector<double> values) {
   std::ranges::sort(values);
   std::vector<double> quantiles;
   for (int k = 1; k < kSteps; ++k) {
-    const double place = static_cast<double>(k) / kSteps * static_cast<double>(values.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
+    const double point = static_cast<double>(k) / kSteps * static_cast<double>(values.size() - 1);
+    const auto below = static_cast<std::size_t>(point);
     const std::size_t above = std::min(below + 1, values.size() - 1);
     quantiles.push_back(values[below] +
-                        (place - static_cast<double>(below)) * (values[above] - values[below]));
+                        (point - static_cast<double>(below)) * (values[above] - values[below]));
   }
   return quantiles;
 }
@@ -82,25 +82,25 @@ double distance_of(const std::vector<double>& one, const std::vector<double>& ot
 /// Calls a function with the coordinates of one stage, the others at their best values so far.
 class StageTrials : public cv::MinProblemSolver::Function {
  public:
-  StageTrials(const std::vector<std::size_t>& coordinates, std::vector<double> place,
+  StageTrials(const std::vector<std::size_t>& coordinates, std::vector<double> point,
               std::function<double(const std::vector<double>&)> cost)
-      : coordinates_(coordinates), place_(std::move(place)), cost_(std::move(cost)) {}
+      : coordinates_(coordinates), point_(std::move(point)), cost_(std::move(cost)) {}
 
   [[nodiscard]] int getDims() const override { return static_cast<int>(coordinates_.size()); }
 
   double calc(const double* values) const override {
-    std::vector<double> place = place_;
+    std::vector<double> point = point_;
     double outside = 0;
     for (std::size_t k = 0; k < coordinates_.size(); ++k) {
-      place[coordinates_[k]] = std::clamp(values[k], 0.0, 1.0);
-      outside += std::abs(values[k] - place[coordinates_[k]]);
+      point[coordinates_[k]] = std::clamp(values[k], 0.0, 1.0);
+      outside += std::abs(values[k] - point[coordinates_[k]]);
     }
-    return cost_(place) + outside;
+    return cost_(point) + outside;
   }
 
  private:
   const std::vector<std::size_t>& coordinates_;
-  std::vector<double> place_;
+  std::vector<double> point_;
   std::function<double(const std::vector<double>&)> cost_;
 };
 
@@ -133,14 +133,14 @@ class SettingsSearch {
   [[nodiscard]] int done() const noexcept { return done_; }
 
  private:
-  double tried(const std::vector<double>& place) {
+  double tried(const std::vector<double>& point) {
     if (hooks_.stop_wanted()) throw Cancelled();
-    const double cost = cost_(place);
+    const double cost = cost_(point);
     ++done_;
     hooks_.report({.clip = "settings", .done = done_, .total = std::max(trials_, done_)});
     if (done_ == 1 || cost < least_) {
       least_ = cost;
-      best_ = place;
+      best_ = point;
     }
     return cost;
   }
@@ -149,9 +149,9 @@ class SettingsSearch {
     for (const std::size_t share : space_.shares()) {
       if (std::ranges::find(stage, share) == stage.end()) continue;
       for (const double end : {0.0, 1.0}) {
-        std::vector<double> place = best_;
-        place[share] = end;
-        if (place != best_) tried(place);
+        std::vector<double> point = best_;
+        point[share] = end;
+        if (point != best_) tried(point);
       }
     }
   }
@@ -161,17 +161,17 @@ class SettingsSearch {
     const auto dimensions = static_cast<int>(stage.size());
     if (trials <= dimensions + 1) return;
     const cv::Ptr<cv::MinProblemSolver::Function> function = cv::makePtr<StageTrials>(
-        stage, best_, [this](const std::vector<double>& place) { return tried(place); });
+        stage, best_, [this](const std::vector<double>& point) { return tried(point); });
     cv::Mat steps(dimensions, 1, CV_64F);
-    cv::Mat place(1, dimensions, CV_64F);
+    cv::Mat point(1, dimensions, CV_64F);
     for (int k = 0; k < dimensions; ++k) {
       const double at = best_[stage[static_cast<std::size_t>(k)]];
-      place.at<double>(k) = at;
+      point.at<double>(k) = at;
       steps.at<double>(k) = at > 0.5 ? -step : step;
     }
     const auto solver = cv::DownhillSolver::create(
         function, steps, {cv::TermCriteria::MAX_ITER + cv::TermCriteria::EPS, trials, kSmallest});
-    solver->minimize(place);
+    solver->minimize(point);
   }
 
   const FittedSpace& space_;
@@ -232,9 +232,9 @@ class Fitter {
     found.distance_before = fitted.distance(before);
     if (fit_size(fitted.frames(), before, *footage, found)) footage = footage_of("resized");
     const FittedSpace space(document_, footage->config.resolved);
-    const auto cost = [&](const std::vector<double>& place) {
+    const auto cost = [&](const std::vector<double>& point) {
       return fitted.distance(
-          footage->radiance.measured(config_of(space.document_at(place), *footage), targets_));
+          footage->radiance.measured(config_of(space.document_at(point), *footage), targets_));
     };
     SettingsSearch search(space, options_.trials, cost, options_.trying);
     search.run();
@@ -315,11 +315,11 @@ class Fitter {
     return all;
   }
 
-  void add_changes(const FittedSpace& space, const std::vector<double>& place, Fit& found) const {
+  void add_changes(const FittedSpace& space, const std::vector<double>& point, Fit& found) const {
     for (std::size_t k = 0; k < fitted_keys().size(); ++k) {
       const FittedKey& key = fitted_keys()[k];
       const Json before = space.value_at(k, space.start());
-      const Json after = space.value_at(k, place);
+      const Json after = space.value_at(k, point);
       if (before == after) continue;
       std::string name = std::string(key.path).substr(1);
       std::ranges::replace(name, '/', '.');
@@ -358,9 +358,9 @@ class Fitter {
                                 .real = median(of_judging),
                                 .before = median(of_before),
                                 .after = median(of_after),
-                                .told_before = told_alone(of_judging, of_before, k),
-                                .told_after = told_alone(of_judging, of_after, k),
-                                .told_halves = told_alone(of_judging, of_fitted, k)});
+                                .separation_before = separation_alone(of_judging, of_before, k),
+                                .separation_after = separation_alone(of_judging, of_after, k),
+                                .separation_of_halves = separation_alone(of_judging, of_fitted, k)});
     }
   }
 
@@ -381,7 +381,7 @@ class Fitter {
   const PlanInto& plan_;
   Json document_;
   TargetChoice targets_;
-  PassingFolder folder_;
+  TemporaryFolder folder_;
 };
 
 }  // namespace
@@ -396,7 +396,7 @@ void FitOptions::validate() const {
   check("--trials", trials, 20);
 }
 
-bool FittedFeature::is_unlike() const { return told_after > kUnlike && told_after > told_halves; }
+bool FittedFeature::is_unlike() const { return separation_after > kUnlike && separation_after > separation_of_halves; }
 
 RealFeatures::RealFeatures(std::vector<FrameFigures> frames, std::uint32_t seed)
     : frames_(std::move(frames)), columns_(columns_of(figures_in(frames_))), scales_(columns_.size()) {

@@ -44,9 +44,9 @@ struct FittedFeature {
   std::optional<double> real;
   std::optional<double> before;
   std::optional<double> after;
-  double told_before = 0.5;
-  double told_after = 0.5;
-  double told_halves = 0.5;  ///< separation of the fitted half from the held-out one
+  double separation_before = 0.5;
+  double separation_after = 0.5;
+  double separation_of_halves = 0.5;  ///< separation of the fitted half from the held-out one
 
   /// Whether it separates by more than a threshold, and more than it separates the real halves.
   [[nodiscard]] bool is_unlike() const;

@@ -119,8 +119,8 @@ Entries entries_of(const Json* section) {
 }
 
 const Json* member(const Json& document, const std::string& path) {
-  const Json::json_pointer place(path);
-  return document.contains(place) ? &document[place] : nullptr;
+  const Json::json_pointer point(path);
+  return document.contains(point) ? &document[point] : nullptr;
 }
 
 double share_of(const Json* section) {
@@ -161,12 +161,12 @@ Json section_with(const Json* section, const std::string& path, double share) {
 }
 
 void set_section(Json& document, const std::string& path, double share) {
-  const Json::json_pointer place(path);
+  const Json::json_pointer point(path);
   Json section = section_with(member(document, path), path, share);
   if (!section.is_null())
-    document[place] = std::move(section);
-  else if (document.contains(place))
-    document[place.parent_pointer()].erase(place.back());
+    document[point] = std::move(section);
+  else if (document.contains(point))
+    document[point.parent_pointer()].erase(point.back());
 }
 
 /// Whether a document has the stage of a key; those of the sensor always exist.
@@ -243,15 +243,15 @@ FittedSpace::FittedSpace(Json document, const Json& resolved) : document_(std::m
     known_.back() = known.has_value();
     const double middle = number_at(key, 0.5);  // of a stage that the config lacks
     const auto [low, high] = known.value_or(std::pair(middle, middle));
-    const auto place = [&key](double value) {
+    const auto point = [&key](double value) {
       if (!key.by_ratio) return (value - key.low) / (key.high - key.low);
       return std::log(std::max(value, key.low) / key.low) / std::log(key.high / key.low);
     };
     if (key.varies) {
-      add(place(low));
-      add(place(high));
+      add(point(low));
+      add(point(high));
     } else {
-      add(0.5 * (place(low) + place(high)));
+      add(0.5 * (point(low) + point(high)));
     }
   }
 }
@@ -263,35 +263,35 @@ double FittedSpace::number_at(const FittedKey& key, double coordinate) const {
   return key.is_whole ? std::round(value) : rounded_to_three(value);
 }
 
-Json FittedSpace::value_at(std::size_t number, const std::vector<double>& place) const {
+Json FittedSpace::value_at(std::size_t number, const std::vector<double>& point) const {
   const FittedKey& key = fitted_keys()[number];
   const std::size_t at = first_[number];
-  if (key.is_share) return rounded_to_three(std::clamp(place[at], 0.0, 1.0));
-  const double one = number_at(key, place[at]);
+  if (key.is_share) return rounded_to_three(std::clamp(point[at], 0.0, 1.0));
+  const double one = number_at(key, point[at]);
   if (key.is_whole) return static_cast<int>(one);
-  const double other = key.varies ? number_at(key, place[at + 1]) : one;
+  const double other = key.varies ? number_at(key, point[at + 1]) : one;
   if (one == other) return one;
   return {{"uniform", {std::min(one, other), std::max(one, other)}}};
 }
 
-Json FittedSpace::document_at(const std::vector<double>& place) const {
+Json FittedSpace::document_at(const std::vector<double>& point) const {
   Json document = document_;
   for (std::size_t number = 0; number < fitted_keys().size(); ++number) {
     const FittedKey& key = fitted_keys()[number];
-    const bool is_start = is_at_start(number, place);
+    const bool is_start = is_at_start(number, point);
     if (key.is_share) {
-      if (!is_start) set_section(document, key.path, place[first_[number]]);
+      if (!is_start) set_section(document, key.path, point[first_[number]]);
     } else if (!(is_start && known_[number]) && has_stage(document, key.path)) {
-      set_in(document, keys_in(key.path), value_at(number, place));
+      set_in(document, keys_in(key.path), value_at(number, point));
     }
   }
   return document;
 }
 
-bool FittedSpace::is_at_start(std::size_t number, const std::vector<double>& place) const {
+bool FittedSpace::is_at_start(std::size_t number, const std::vector<double>& point) const {
   const std::size_t end = number + 1 < first_.size() ? first_[number + 1] : start_.size();
   for (std::size_t k = first_[number]; k < end; ++k)
-    if (place[k] != start_[k]) return false;
+    if (point[k] != start_[k]) return false;
   return true;
 }
 

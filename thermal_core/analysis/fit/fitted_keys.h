@@ -46,15 +46,15 @@ class FittedSpace {
 
   /// The config with the values of a point where it differs from the start, rounded to three digits. A key within a
   /// choice is set in each of its entries that are objects. Coordinates are clamped to 0 to 1.
-  [[nodiscard]] Json document_at(const std::vector<double>& place) const;
+  [[nodiscard]] Json document_at(const std::vector<double>& point) const;
 
   /// A key's value at a point, as document_at() writes it: a number or a distribution.
-  [[nodiscard]] Json value_at(std::size_t number, const std::vector<double>& place) const;
+  [[nodiscard]] Json value_at(std::size_t number, const std::vector<double>& point) const;
 
  private:
   [[nodiscard]] double number_at(const FittedKey& key, double coordinate) const;
 
-  [[nodiscard]] bool is_at_start(std::size_t number, const std::vector<double>& place) const;
+  [[nodiscard]] bool is_at_start(std::size_t number, const std::vector<double>& point) const;
 
   Json document_;
   std::vector<double> start_;

@@ -15,11 +15,11 @@ namespace {
 
 bool can_convert(const ClipPasses& passes, const PassReader& reader, const FrameConverter& converter,
                  int frame) {
-  const auto place = static_cast<std::size_t>(frame);
-  if (frame < 0 || place >= passes.manifest.frames.size()) return false;
+  const auto index = static_cast<std::size_t>(frame);
+  if (frame < 0 || index >= passes.manifest.frames.size()) return false;
   try {
     (void)converter.convert(reader.read(file_of(passes, frame), converter.needs()),
-                            passes.manifest.frames[place]);
+                            passes.manifest.frames[index]);
     return true;
   } catch (const DataError&) {
   } catch (const IoError&) {

@@ -24,9 +24,9 @@ LocalVector along(const std::array<LocalVector, 3>& axes, const LocalVector& ste
 }
 
 /// East, north and up at a position, in Earth-centred axes.
-std::array<LocalVector, 3> axes_at(const GeoPosition& place) {
-  const double latitude = radians_of(place.latitude_deg);
-  const double longitude = radians_of(place.longitude_deg);
+std::array<LocalVector, 3> axes_at(const GeoPosition& geo_position) {
+  const double latitude = radians_of(geo_position.latitude_deg);
+  const double longitude = radians_of(geo_position.longitude_deg);
   const double sin_lat = std::sin(latitude), cos_lat = std::cos(latitude);
   const double sin_lon = std::sin(longitude), cos_lon = std::cos(longitude);
   return {{{-sin_lon, cos_lon, 0},
@@ -40,11 +40,11 @@ double across_m(double sin_latitude) {
 }
 
 /// Earth-centred coordinates [m] (TR8350.2, equation 4-14).
-LocalVector earth_centred_m(const GeoPosition& place) {
-  const LocalVector up = axes_at(place)[2];
+LocalVector earth_centred_m(const GeoPosition& geo_position) {
+  const LocalVector up = axes_at(geo_position)[2];
   const double radius_m = across_m(up[2]);
-  return {(radius_m + place.height_m) * up[0], (radius_m + place.height_m) * up[1],
-          (radius_m * (1 - kEccentricity2) + place.height_m) * up[2]};
+  return {(radius_m + geo_position.height_m) * up[0], (radius_m + geo_position.height_m) * up[1],
+          (radius_m * (1 - kEccentricity2) + geo_position.height_m) * up[2]};
 }
 
 GeoPosition geodetic(const LocalVector& earth_m) {
@@ -69,24 +69,24 @@ GeoPosition geodetic(const LocalVector& earth_m) {
 
 }  // namespace
 
-PlaceOnEarth::PlaceOnEarth(const GeoPosition& origin)
+Georeference::Georeference(const GeoPosition& origin)
     : origin_(origin), axes_(axes_at(origin)), earth_m_(earth_centred_m(origin)) {}
 
-GeoPosition PlaceOnEarth::position_of(const LocalVector& point_m) const {
+GeoPosition Georeference::position_of(const LocalVector& point_m) const {
   LocalVector earth_m = along(axes_, point_m);
   for (std::size_t k = 0; k < 3; ++k) earth_m[k] += earth_m_[k];
   return geodetic(earth_m);
 }
 
-LocalVector PlaceOnEarth::point_at(const GeoPosition& position) const {
+LocalVector Georeference::point_at(const GeoPosition& position) const {
   LocalVector from_origin_m = earth_centred_m(position);
   for (std::size_t k = 0; k < 3; ++k) from_origin_m[k] -= earth_m_[k];
   return {dot(axes_[0], from_origin_m), dot(axes_[1], from_origin_m), dot(axes_[2], from_origin_m)};
 }
 
-LocalVector PlaceOnEarth::direction_at(const GeoPosition& place, const LocalVector& direction) const {
+LocalVector Georeference::direction_at(const GeoPosition& geo_position, const LocalVector& direction) const {
   const LocalVector earth = along(axes_, direction);
-  const std::array<LocalVector, 3> there = axes_at(place);
+  const std::array<LocalVector, 3> there = axes_at(geo_position);
   return {dot(there[0], earth), dot(there[1], earth), dot(there[2], earth)};
 }
 

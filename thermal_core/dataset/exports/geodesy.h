@@ -12,10 +12,10 @@ using LocalVector = std::array<double, 3>;
 /// Georeferences a scene: its plane z = 0 is tangent to the WGS 84 ellipsoid, raised by the origin's height, at its (0,
 /// 0). Positions are exact, through Earth-centred coordinates, and not a local approximation: the inverse is within
 /// 1e-6 m up to 100 km away and 10 km up.
-class PlaceOnEarth {
+class Georeference {
  public:
   /// @param origin  of latitude within -89 to 89 deg: at a pole, east is undefined
-  explicit PlaceOnEarth(const GeoPosition& origin);
+  explicit Georeference(const GeoPosition& origin);
 
   /// Position of a point [m] of the scene. Iterates Bowring's equation (Survey Review 23, 323, 1976) twice.
   [[nodiscard]] GeoPosition position_of(const LocalVector& point_m) const;
@@ -24,7 +24,7 @@ class PlaceOnEarth {
   [[nodiscard]] LocalVector point_at(const GeoPosition& position) const;
 
   /// A direction of the scene in the local axes of another position: at a distance d they differ by d / 6370 km.
-  [[nodiscard]] LocalVector direction_at(const GeoPosition& place, const LocalVector& direction) const;
+  [[nodiscard]] LocalVector direction_at(const GeoPosition& geo_position, const LocalVector& direction) const;
 
  private:
   GeoPosition origin_;

@@ -130,11 +130,11 @@ void check_near(const LocalVector& point_m) {
                             fmt::format("-{0} to {0} m", kMostAwayM)));
 }
 
-CameraAttitude attitude_at(const std::array<double, 16>& pose, const PlaceOnEarth& place,
+CameraAttitude attitude_at(const std::array<double, 16>& pose, const Georeference& georeference,
                            const GeoPosition& where) {
   std::array<LocalVector, 3> axes{};
   for (std::size_t axis = 0; axis < 3; ++axis)
-    axes[axis] = place.direction_at(where, {pose[axis], pose[4 + axis], pose[8 + axis]});
+    axes[axis] = georeference.direction_at(where, {pose[axis], pose[4 + axis], pose[8 + axis]});
   return attitude_of(axes[0], axes[1], axes[2]);
 }
 
@@ -152,7 +152,7 @@ TaggedCamera tagged_camera(const Json& config, const std::string& clip, const Js
           .time = weather.value("time", std::string())};
 }
 
-TiffTags picture_tags(const TaggedCamera& camera, const FramePose& pose, const PlaceOnEarth& place,
+TiffTags picture_tags(const TaggedCamera& camera, const FramePose& pose, const Georeference& georeference,
                       TiffType type, double kelvin_per_count) {
   TiffTags tags = {
       .description = type == TiffType::float32
@@ -174,8 +174,8 @@ TiffTags picture_tags(const TaggedCamera& camera, const FramePose& pose, const P
     const std::array<double, 16>& matrix = *pose.camera_to_world;
     const LocalVector point_m = {matrix[3], matrix[7], matrix[11]};
     check_near(point_m);
-    tags.position = place.position_of(point_m);
-    attitude = attitude_at(matrix, place, *tags.position);
+    tags.position = georeference.position_of(point_m);
+    attitude = attitude_at(matrix, georeference, *tags.position);
   }
   tags.xmp = xmp_of(camera, attitude);
   return tags;

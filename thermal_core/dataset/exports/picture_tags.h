@@ -40,6 +40,6 @@ struct TaggedCamera {
 /// GDAL's metadata have the unit and, for counts, the scale. DataError if the camera is more than 100 km from the
 /// origin.
 [[nodiscard]] TiffTags picture_tags(const TaggedCamera& camera, const FramePose& pose,
-                                    const PlaceOnEarth& place, TiffType type, double kelvin_per_count);
+                                    const Georeference& georeference, TiffType type, double kelvin_per_count);
 
 }  // namespace thermal

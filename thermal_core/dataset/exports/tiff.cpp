@@ -100,7 +100,7 @@ class TiffPictures {
         record_(read_dataset_file(dataset_)),
         kelvin_per_count_(
             from_record(dataset_, [this] { return record_.at("kelvin_per_count").get<double>(); })),
-        place_(origin),
+        georeference_(origin),
         intrinsics_(intrinsics_in(coco)) {}
 
   [[nodiscard]] TaggedClip clip_of(const LabelImage& image) const {
@@ -119,7 +119,7 @@ class TiffPictures {
     const Plane<std::uint16_t> counts = read_png16(file);
     const auto pose = clip.poses.find(image.frame_index);
     const TiffTags tags = picture_tags(clip.camera, pose == clip.poses.end() ? FramePose() : pose->second,
-                                       place_, type_, kelvin_per_count_);
+                                       georeference_, type_, kelvin_per_count_);
     return type_ == TiffType::uint16 ? encode_tiff(counts, tags) : encode_tiff(kelvin_of(counts), tags);
   }
 
@@ -137,7 +137,7 @@ class TiffPictures {
   Path dataset_;
   Json record_;
   double kelvin_per_count_;
-  PlaceOnEarth place_;
+  Georeference georeference_;
   std::map<std::string, Json> intrinsics_;
 };
 

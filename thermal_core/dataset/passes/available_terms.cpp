@@ -16,8 +16,8 @@ namespace {
 
 /// Result for the first readable frame: a clip's frames are alike, and unreadable ones are reported when they are
 /// converted. `fault` receives the first fault.
-template <typename Look>
-auto of_a_frame(const ClipPasses& source, std::string& fault, const Look& look)
+template <typename ViewDirection>
+auto of_a_frame(const ClipPasses& source, std::string& fault, const ViewDirection& look)
     -> std::optional<decltype(look(0))> {
   const auto frames = static_cast<int>(source.manifest.frames.size());
   for (int frame = 0; frame < frames; ++frame) {
@@ -81,12 +81,12 @@ double ground_cosine(const ManifestFrame& frame, const LensPoint& ray, double le
 }
 
 /// Viewing directions of five by five rays, with ranges from the depth plane.
-std::vector<SceneOutline::Look> looks_in(const Plane<float>& depth_m, const Manifest& manifest,
+std::vector<SceneOutline::ViewDirection> directions_in(const Plane<float>& depth_m, const Manifest& manifest,
                                          const ManifestFrame& frame) {
   const CameraIntrinsics camera = passes_camera(manifest);
   constexpr int kRays = 5;
   constexpr double kLeastCosine = 0.01;  // nearer to the horizon counts as sky
-  std::vector<SceneOutline::Look> looks;
+  std::vector<SceneOutline::ViewDirection> view_directions;
   for (int row = 0; row < kRays; ++row) {
     for (int column = 0; column < kRays; ++column) {
       const int x = (depth_m.width_px() - 1) * column / (kRays - 1);
@@ -97,16 +97,16 @@ std::vector<SceneOutline::Look> looks_in(const Plane<float>& depth_m, const Mani
       const double length = std::hypot(ray.x, ray.y, 1);
       const double cosine = ground_cosine(frame, ray, length);
       if (cosine <= kLeastCosine) continue;
-      looks.push_back({.range_m = static_cast<double>(depth) * length,
+      view_directions.push_back({.range_m = static_cast<double>(depth) * length,
                        .ground_cosine = cosine,
                        .axis_cosine = 1 / length});
     }
   }
-  return looks;
+  return view_directions;
 }
 
 /// Adds the mean height and angle over the frames that state their height, as for planned clips.
-void add_told_height(const Manifest& manifest, const ClipConfig& clip, Nights& nights) {
+void add_stated_height(const Manifest& manifest, const ClipConfig& clip, ViewingConditions& conditions) {
   constexpr double kStraightDown = 90;
   double sum_agl_m = 0;
   double sum_look_deg = 0;
@@ -117,19 +117,19 @@ void add_told_height(const Manifest& manifest, const ClipConfig& clip, Nights& n
     sum_look_deg += frame.look_angle_deg.value_or(kStraightDown);
     ++count;
   }
-  if (count > 0) nights.add(clip, sum_agl_m / count, sum_look_deg / count, manifest.camera);
+  if (count > 0) conditions.add(clip, sum_agl_m / count, sum_look_deg / count, manifest.camera);
 }
 
 /// Viewing directions of a clip's camera, from a frame's depths; empty without depths.
-std::vector<SceneOutline::Look> looks_of(const ClipPasses& source, const PassReader& reader) {
+std::vector<SceneOutline::ViewDirection> directions_of(const ClipPasses& source, const PassReader& reader) {
   const auto look = [&](int number) {
     const Passes passes =
         reader.read(file_of(source, number), {.depth = true, .normals = false, .actors = false});
-    return looks_in(passes.depth_m, source.manifest,
+    return directions_in(passes.depth_m, source.manifest,
                     source.manifest.frames[static_cast<std::size_t>(number)]);
   };
   std::string ignored;
-  return of_a_frame(source, ignored, look).value_or(std::vector<SceneOutline::Look>());
+  return of_a_frame(source, ignored, look).value_or(std::vector<SceneOutline::ViewDirection>());
 }
 
 /// The longest displacement of an actor between two frames [m].
@@ -147,7 +147,7 @@ double longest_step_m(const ManifestFrame& before, const ManifestFrame& now) {
 
 /// Motion of the picture by the poses [px / s]: the fastest translation over level ground, also of an actor, and the
 /// fastest rotation.
-double motion_px_per_s(const Manifest& manifest, const std::vector<SceneOutline::Look>& looks) {
+double motion_px_per_s(const Manifest& manifest, const std::vector<SceneOutline::ViewDirection>& view_directions) {
   constexpr double kUsualHeightM = 100;
   double fastest = 0;
   for (std::size_t i = 1; i < manifest.frames.size(); ++i) {
@@ -155,7 +155,7 @@ double motion_px_per_s(const Manifest& manifest, const std::vector<SceneOutline:
     if (!frame.camera_to_world || !manifest.frames[i - 1].camera_to_world) continue;
     const auto& now = *frame.camera_to_world;
     const auto& before = *manifest.frames[i - 1].camera_to_world;
-    const double height_m = frame.agl_m.value_or(looks.empty() ? kUsualHeightM : looks.front().range_m);
+    const double height_m = frame.agl_m.value_or(view_directions.empty() ? kUsualHeightM : view_directions.front().range_m);
     const double moved_m = std::hypot(now[3] - before[3], now[7] - before[7], now[11] - before[11]) +
                            longest_step_m(manifest.frames[i - 1], frame);
     const double turned = std::hypot(now[2] - before[2], now[6] - before[6], now[10] - before[10]);
@@ -165,7 +165,7 @@ double motion_px_per_s(const Manifest& manifest, const std::vector<SceneOutline:
 }
 
 /// Whether a frame states the height of its camera.
-bool tells_height(const Manifest& manifest) {
+bool states_height(const Manifest& manifest) {
   return std::ranges::any_of(manifest.frames,
                              [](const ManifestFrame& frame) { return frame.agl_m.has_value(); });
 }
@@ -179,8 +179,8 @@ void add_ground(const std::set<std::string>& names, const MaterialLibrary& mater
 
 }  // namespace
 
-PassesView view_passes(const ClipPasses& source, bool looks) {
-  PassesView view = {.planes = {}, .looks = {}, .has_ground_maps = has_ground_beside(source.folder)};
+PassesView view_passes(const ClipPasses& source, bool view_directions) {
+  PassesView view = {.planes = {}, .view_directions = {}, .has_ground_maps = has_ground_beside(source.folder)};
   try {
     const PassReader reader = reader_for(source);
     std::string fault;
@@ -190,8 +190,8 @@ PassesView view_passes(const ClipPasses& source, bool looks) {
       view.fault = source.bad_frames == BadFrames::fail
                        ? fault
                        : no_frame_left(fault, static_cast<int>(source.manifest.frames.size()));
-    if (looks && view.planes && view.planes->depth && !tells_height(source.manifest))
-      view.looks = looks_of(source, reader);
+    if (view_directions && view.planes && view.planes->depth && !states_height(source.manifest))
+      view.view_directions = directions_of(source, reader);
   } catch (const DataError& error) {  // the manifest makes every frame unreadable
     view.fault = error.what();
   }
@@ -203,16 +203,16 @@ PassesView view_planes(const Manifest& manifest, const Passes& first) {
                                          .normals = !first.normal.front().empty(),
                                          .actors = !first.actor_index.empty(),
                                          .mirrored = !first.mirrored.empty()},
-                     .looks = {}};
-  if (view.planes->depth && !tells_height(manifest))
-    view.looks = looks_in(first.depth_m, manifest, manifest.frames.front());
+                     .view_directions = {}};
+  if (view.planes->depth && !states_height(manifest))
+    view.view_directions = directions_in(first.depth_m, manifest, manifest.frames.front());
   return view;
 }
 
 SceneOutline outline_of(const Config& config, const MaterialLibrary& materials,
                         const std::vector<ClipPasses>& sources, const std::vector<PassesView>& views) {
   SceneOutline outline = empty_outline(config);
-  Nights nights(config);
+  ViewingConditions conditions(config);
   std::set<std::string> ground;
   std::set<std::string> actors;
   for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -221,16 +221,16 @@ SceneOutline outline_of(const Config& config, const MaterialLibrary& materials,
       (object.object_class == ObjectClass::actor ? actors : ground).insert(object.material);
     const ClipConfig& clip = config.clip(manifest.clip, "manifest: clip");
     const SensorParameters& sensor = settings_of(config, clip).sensor;
-    add_told_height(manifest, clip, nights);
+    add_stated_height(manifest, clip, conditions);
     if (!config.physical) continue;
     if (views[i].planes) add_impossible(sources[i], views[i], config, materials, outline);
-    nights.add(clip, views[i].looks);
+    conditions.add(clip, views[i].view_directions);
     outline.smear_px =
-        std::max(outline.smear_px, motion_px_per_s(manifest, views[i].looks) * sensor.time_constant_s);
+        std::max(outline.smear_px, motion_px_per_s(manifest, views[i].view_directions) * sensor.time_constant_s);
   }
   add_ground(ground, materials, outline);
   add_actors(actors, materials, outline);
-  outline.nights = nights.list(outline, materials);
+  outline.conditions = conditions.list(outline, materials);
   return outline;
 }
 

@@ -12,13 +12,13 @@ namespace thermal {
 namespace {
 
 /// Rays over the picture: a grid of five by five.
-std::vector<SceneOutline::Look> looks_from(double height_m, double look_angle_rad,
+std::vector<SceneOutline::ViewDirection> directions_from(double height_m, double look_angle_rad,
                                            const CameraIntrinsics& camera) {
   const double half_width = 0.5 * camera.width_px / camera.fx_px;
   const double half_height = 0.5 * camera.height_px / camera.fy_px;
   const double x_middle = (0.5 * camera.width_px - camera.cx_px) / camera.fx_px;
   const double y_middle = (0.5 * camera.height_px - camera.cy_px) / camera.fy_px;
-  std::vector<SceneOutline::Look> looks;
+  std::vector<SceneOutline::ViewDirection> view_directions;
   for (int row = -2; row <= 2; ++row) {
     for (int column = -2; column <= 2; ++column) {
       const double x = x_middle + half_width * column / 2;
@@ -27,10 +27,10 @@ std::vector<SceneOutline::Look> looks_from(double height_m, double look_angle_ra
       // Downward part of the ray (x, y, 1) of a camera pitched down by the look angle.
       const double down = (std::sin(look_angle_rad) + y * std::cos(look_angle_rad)) / length;
       if (down <= 0.01) continue;  // at the sky
-      looks.push_back({.range_m = height_m / down, .ground_cosine = down, .axis_cosine = 1 / length});
+      view_directions.push_back({.range_m = height_m / down, .ground_cosine = down, .axis_cosine = 1 / length});
     }
   }
-  return looks;
+  return view_directions;
 }
 
 double least_netd_k(const Config& config) {
@@ -43,7 +43,7 @@ double least_netd_k(const Config& config) {
 
 SceneOutline empty_outline(const Config& config) {
   SceneOutline outline = {
-      .covers = {}, .nights = {}, .response = config.sensor.response, .netd_k = least_netd_k(config)};
+      .covers = {}, .conditions = {}, .response = config.sensor.response, .netd_k = least_netd_k(config)};
   if (config.heat_balance) return outline;
   const std::pair<std::string, TermChoice> of_heat[] = {{"place", config.terms.place},
                                                         {"facing", config.terms.facing}};
@@ -61,49 +61,49 @@ void add_actors(const std::set<std::string>& names, const MaterialLibrary& mater
   }
 }
 
-Nights::Night& Nights::night_of(const ClipConfig& clip) {
+ViewingConditions::Conditions& ViewingConditions::conditions_of(const ClipConfig& clip) {
   const ClipSettings& settings = settings_of(config_, clip);
   const auto [place, is_new] = places_.try_emplace({clip.season, &settings}, nights_.size());
   if (!is_new) return nights_[place->second];
-  Night night = {.season = clip.season,
+  Conditions viewing = {.season = clip.season,
                  .weather = weather_at_start(config_, clip),
                  .response = settings.sensor.response};
-  const auto found = std::ranges::find_if(nights_, [&night](const Night& one) {
-    return one.weather == night.weather && one.response == night.response;
+  const auto found = std::ranges::find_if(nights_, [&viewing](const Conditions& one) {
+    return one.weather == viewing.weather && one.response == viewing.response;
   });
   place->second = static_cast<std::size_t>(found - nights_.begin());
-  if (found == nights_.end()) nights_.push_back(std::move(night));
+  if (found == nights_.end()) nights_.push_back(std::move(viewing));
   return nights_[place->second];
 }
 
-void Nights::add(const ClipConfig& clip, double mean_height_m, double mean_look_angle_deg,
+void ViewingConditions::add(const ClipConfig& clip, double mean_height_m, double mean_look_angle_deg,
                  const CameraIntrinsics& camera) {
   const double height_m = std::max(1.0, std::round(mean_height_m));
   const double look_angle_deg = std::round(mean_look_angle_deg);
-  Night& night = night_of(clip);
-  const bool is_new = night.seen.insert({height_m, look_angle_deg, camera.fx_px, camera.fy_px}).second;
+  Conditions& viewing = conditions_of(clip);
+  const bool is_new = viewing.seen.insert({height_m, look_angle_deg, camera.fx_px, camera.fy_px}).second;
   if (!is_new) return;  // many clips have similar flights
   const double angle = look_angle_deg * std::numbers::pi / 180;
-  add(clip, looks_from(height_m, angle, camera));
+  add(clip, directions_from(height_m, angle, camera));
 }
 
-void Nights::add(const ClipConfig& clip, const std::vector<SceneOutline::Look>& looks) {
-  auto& all = night_of(clip).looks;
-  all.insert(all.end(), looks.begin(), looks.end());
+void ViewingConditions::add(const ClipConfig& clip, const std::vector<SceneOutline::ViewDirection>& view_directions) {
+  auto& all = conditions_of(clip).view_directions;
+  all.insert(all.end(), view_directions.begin(), view_directions.end());
 }
 
-std::vector<SceneOutline::Night> Nights::list(const SceneOutline& outline,
+std::vector<SceneOutline::Conditions> ViewingConditions::list(const SceneOutline& outline,
                                               const MaterialLibrary& library) const {
-  std::vector<SceneOutline::Night> nights;
+  std::vector<SceneOutline::Conditions> conditions;
   for (const Season season : {Season::winter, Season::summer})
-    for (const Night& one : nights_)
+    for (const Conditions& one : nights_)
       if (one.season == season)
-        nights.push_back({.weather = one.weather, .response = one.response, .looks = one.looks});
-  if (!config_.heat_balance) return nights;
-  parallel_for(nights.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) heat_night(outline.covers, library, nights[k]);
+        conditions.push_back({.weather = one.weather, .response = one.response, .view_directions = one.view_directions});
+  if (!config_.heat_balance) return conditions;
+  parallel_for(conditions.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) heat_conditions(outline.covers, library, conditions[k]);
   });
-  return nights;
+  return conditions;
 }
 
 KeptTerms::KeptTerms(const Config& config, const SceneOutline& outline) : choices_{config.terms} {

@@ -27,9 +27,9 @@ inline constexpr double kActorShare = 0.03;  ///< weight in the budget: a choice
 void add_actors(const std::set<std::string>& names, const MaterialLibrary& materials, SceneOutline& outline);
 
 /// Collects the viewing directions of cameras, by the weather and spectral response of clips.
-class Nights {
+class ViewingConditions {
  public:
-  explicit Nights(const Config& config) : config_(config) {}
+  explicit ViewingConditions(const Config& config) : config_(config) {}
 
   /// A clip's camera above level ground, `look_angle_deg` below the horizon: means over the clip, rounded to whole
   /// metres, at least one, and degrees.
@@ -37,25 +37,25 @@ class Nights {
            const CameraIntrinsics& camera);
 
   /// Other known viewing directions.
-  void add(const ClipConfig& clip, const std::vector<SceneOutline::Look>& looks);
+  void add(const ClipConfig& clip, const std::vector<SceneOutline::ViewDirection>& view_directions);
 
   /// The collected conditions, winter first, with the temperatures of an outline's covers; computed on all threads.
-  [[nodiscard]] std::vector<SceneOutline::Night> list(const SceneOutline& outline,
+  [[nodiscard]] std::vector<SceneOutline::Conditions> list(const SceneOutline& outline,
                                                       const MaterialLibrary& library) const;
 
  private:
-  struct Night {
+  struct Conditions {
     Season season;
     Weather weather;
     SpectralResponse response;
-    std::vector<SceneOutline::Look> looks = {};
+    std::vector<SceneOutline::ViewDirection> view_directions = {};
     std::set<std::tuple<double, double, double, double>> seen = {};  ///< height, angle, focal length
   };
-  Night& night_of(const ClipConfig& clip);
+  Conditions& conditions_of(const ClipConfig& clip);
 
   const Config& config_;
   std::map<std::pair<Season, const ClipSettings*>, std::size_t> places_;
-  std::vector<Night> nights_;
+  std::vector<Conditions> nights_;
 };
 
 /// Outline of a planned dataset: its ground, plants and species, and the viewing directions of its clips, by metre and
@@ -68,12 +68,12 @@ class Nights {
 struct PassesView {
   std::optional<PassNeeds> planes;        ///< of its first readable frame; empty: no frame is readable
   std::string fault = {};                 ///< why no frame is readable; or empty
-  std::vector<SceneOutline::Look> looks;  ///< from that frame's depths, if the manifest has no height
+  std::vector<SceneOutline::ViewDirection> view_directions;  ///< from that frame's depths, if the manifest has no height
   bool has_ground_maps = false;           ///< beside the passes
 };
 
 /// Inspects the first readable frame of a clip; reads pixels only for `looks`.
-[[nodiscard]] PassesView view_passes(const ClipPasses& source, bool looks);
+[[nodiscard]] PassesView view_passes(const ClipPasses& source, bool view_directions);
 
 /// The same of a clip whose first frame is in memory.
 [[nodiscard]] PassesView view_planes(const Manifest& manifest, const Passes& first);

@@ -28,19 +28,19 @@ SceneOutline outline_of(const Config& config, const DatasetPlan& plan, const Mat
       std::ranges::any_of(outline.covers, [](const auto& cover) { return cover.material->mirrors(); }))
     outline.impossible.emplace("mirror", "the engine blender does not trace what water mirrors");
   add_actors({plan.actor_materials.begin(), plan.actor_materials.end()}, materials, outline);
-  Nights nights(config);
+  ViewingConditions conditions(config);
   std::map<std::string, const ClipConfig*> configs;
   for (const ClipConfig& clip : config.clips) configs[clip.id] = &clip;
   const std::map<std::string, double> speeds_m_s = speeds_of_clips_m_s(config);
   for (const ClipPlan& clip : plan.clips) {
     const ClipConfig& own = *configs.at(clip.id);
     const ClipSettings& settings = settings_of(config, own);
-    nights.add(own, clip.mean_agl_m, clip.mean_look_angle_deg, settings.camera);
+    conditions.add(own, clip.mean_agl_m, clip.mean_look_angle_deg, settings.camera);
     const double px_per_s =
         settings.camera.fx_px * (speeds_m_s.at(clip.id) + kWalkingMPerS) / std::max(1.0, clip.mean_agl_m);
     outline.smear_px = std::max(outline.smear_px, px_per_s * settings.sensor.time_constant_s);
   }
-  outline.nights = nights.list(outline, materials);
+  outline.conditions = conditions.list(outline, materials);
   return outline;
 }
 

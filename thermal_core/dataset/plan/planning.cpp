@@ -17,7 +17,7 @@
 #include "io/config/asset_files.h"
 #include "io/system/child_process.h"
 #include "io/system/files.h"
-#include "io/system/held_folder.h"
+#include "io/system/locked_folder.h"
 #include "io/system/sha256.h"
 
 namespace thermal {
@@ -47,7 +47,7 @@ void show_event(const std::string& line, const PlanOptions& options) {
   std::string message = fmt::format("{} {}", planner, output.status.in_words());
   if (output.status.signal == SIGKILL) {
     message += fmt::format("; {}", kKilledHint);
-  } else if (const std::string why = printable(output.last_words()); !why.empty()) {
+  } else if (const std::string why = printable(output.last_error_line()); !why.empty()) {
     message += ": " + why;
   }
   if (output.status.is_killed() || output.status.code == kTryAgain) throw TryAgainError(message);
@@ -168,7 +168,7 @@ DatasetPlan plan_again(const Path& folder, const Config& config, const std::stri
                        const PlanOptions& options,
                        const std::function<void(const DatasetPlan&)>& may_replace) {
   const Path part = unfinished_plan(folder);
-  const HeldFolder held(part);
+  const LockedFolder locked(part);
   if (auto plan = current_plan(folder, config, options)) {  // another run has made it, or it lacks maps
     complete_maps(folder, part, config, *plan, options);
     return *std::move(plan);
@@ -190,7 +190,7 @@ DatasetPlan plan_into(const Path& folder, const Config& config, const std::strin
   std::optional<DatasetPlan> plan = current_plan(folder, config, options);
   if (!plan || !has_its_maps(folder, config, options))
     plan = plan_again(folder, config, name, options, may_replace);
-  const std::optional<LeftOver> left_over = sweep_unless_held(unfinished_plan(folder));
+  const std::optional<LeftOver> left_over = sweep_unless_locked(unfinished_plan(folder));
   if (left_over && options.left_over) options.left_over(*left_over);
   return *std::move(plan);
 }

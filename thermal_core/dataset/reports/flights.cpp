@@ -14,7 +14,7 @@
 #include "io/image/jpeg.h"
 #include "io/system/base64.h"
 #include "io/system/child_process.h"
-#include "io/system/passing_folder.h"
+#include "io/system/temporary_folder.h"
 
 namespace thermal {
 
@@ -135,14 +135,14 @@ Json drawn(const Json& answer, const Path& folder) {
 Json map_of(const std::vector<FlightTrack>& tracks, const Json& config, const Assets& assets) {
   const Path python = find_python();
   if (python.empty()) return absent("The place could not be drawn: no python3 on PATH.");
-  const PassingFolder folder;
+  const TemporaryFolder folder;
   write_file_atomically(folder.path() / "config.json", to_text(config));
   write_file_atomically(folder.path() / "points.json", ground_points(tracks, config).dump());
   const std::string at = folder.path().string();
   const Output output = run_program({python.string(), "-I", assets.script("draw_map.py").string(), "--config",
                                      at + "/config.json", "--points", at + "/points.json", "--out", at});
   if (output.status.signal != 0 || output.status.code != 0) {
-    const std::string why = printable(output.last_words());
+    const std::string why = printable(output.last_error_line());
     return absent("The place could not be drawn: " + (why.empty() ? output.status.in_words() : why));
   }
   return drawn(parse_json(output.out, "draw_map.py"), folder.path());

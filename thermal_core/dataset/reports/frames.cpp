@@ -61,16 +61,16 @@ Json box_of(const Label& label, std::size_t category) {
   return json;
 }
 
-Json boxes_of(const LabelSet& set, const std::vector<std::size_t>& places, std::size_t image) {
+Json boxes_of(const LabelSet& set, const std::vector<std::size_t>& ranks, std::size_t image) {
   const auto before = [](const Label& label, std::size_t at) { return label.image < at; };
   Json boxes = Json::array();
   for (auto label = std::lower_bound(set.labels.begin(), set.labels.end(), image, before);
        label != set.labels.end() && label->image == image; ++label)
-    boxes.push_back(box_of(*label, places[label->category]));
+    boxes.push_back(box_of(*label, ranks[label->category]));
   return boxes;
 }
 
-Json figure_of(const LabelSet& set, const std::vector<std::size_t>& places, const SampleFrame& sample) {
+Json figure_of(const LabelSet& set, const std::vector<std::size_t>& ranks, const SampleFrame& sample) {
   constexpr int kMostPx = 960;
   const LabelImage& image = set.images[sample.image];
   return {{"video", set.videos[image.video].name},
@@ -79,7 +79,7 @@ Json figure_of(const LabelSet& set, const std::vector<std::size_t>& places, cons
           {"width_px", image.width_px},
           {"height_px", image.height_px},
           {"picture", "data:image/jpeg;base64," + base64_of(as_jpeg(picture_of(set, image), kMostPx))},
-          {"boxes", boxes_of(set, places, sample.image)}};
+          {"boxes", boxes_of(set, ranks, sample.image)}};
 }
 
 }  // namespace
@@ -104,12 +104,12 @@ std::vector<SampleFrame> choose_samples(const LabelSet& set) {
 }
 
 Json sample_figures(const LabelSet& set, bool all) {
-  const std::vector<std::size_t> places = category_places(set);
+  const std::vector<std::size_t> ranks = category_ranks(set);
   Json frames = Json::array();
   Json missing = Json::array();
   for (const SampleFrame& sample : choose_samples(set)) {
     try {
-      frames.push_back(figure_of(set, places, sample));
+      frames.push_back(figure_of(set, ranks, sample));
     } catch (const Error&) {
       if (all) throw;
       missing.push_back(set.images[sample.image].file);

@@ -19,12 +19,12 @@ std::vector<std::int64_t> labels_of_each(const LabelSet& set) {
 }
 
 /// Names in the order of their indices, without those that have no labels.
-std::vector<std::string> used_categories(const LabelSet& set, const std::vector<std::size_t>& places) {
+std::vector<std::string> ranked_categories(const LabelSet& set, const std::vector<std::size_t>& ranks) {
   const std::vector<std::int64_t> counts = labels_of_each(set);
   std::vector<std::string> names(set.categories.size());
   std::size_t used = 0;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    names[places[k]] = set.categories[k].name;
+  for (std::size_t k = 0; k < ranks.size(); ++k) {
+    names[ranks[k]] = set.categories[k].name;
     if (counts[k] > 0) ++used;
   }
   names.resize(used);
@@ -57,10 +57,10 @@ struct Count {
   }
 };
 
-Json counts_of(const LabelSet& set, const std::vector<std::size_t>& places, std::size_t used) {
+Json counts_of(const LabelSet& set, const std::vector<std::size_t>& ranks, std::size_t used) {
   std::vector<Count> counts(used);
   for (const Label& label : set.labels)
-    counts[places[label.category]].add(label, set.images[label.image].video);
+    counts[ranks[label.category]].add(label, set.images[label.image].video);
   Json json = Json::array();
   for (const Count& count : counts) json.push_back(count.json());
   return json;
@@ -103,16 +103,16 @@ Json sizes_of(const LabelSet& set) {
 
 using Quantity = std::optional<double> (*)(const Label&);
 
-Json histogram(const LabelSet& set, const std::vector<std::size_t>& places, std::size_t used, Bins bins,
+Json histogram(const LabelSet& set, const std::vector<std::size_t>& ranks, std::size_t used, Bins bins,
                Quantity quantity) {
   std::vector<HistogramValue> values;
   values.reserve(set.labels.size());
-  for (const Label& label : set.labels) values.push_back({quantity(label), places[label.category]});
+  for (const Label& label : set.labels) values.push_back({quantity(label), ranks[label.category]});
   return histogram_of(values, used, bins);
 }
 
-Json histograms_of(const LabelSet& set, const std::vector<std::size_t>& places, std::size_t used) {
-  const auto of = [&](Bins bins, Quantity quantity) { return histogram(set, places, used, bins, quantity); };
+Json histograms_of(const LabelSet& set, const std::vector<std::size_t>& ranks, std::size_t used) {
+  const auto of = [&](Bins bins, Quantity quantity) { return histogram(set, ranks, used, bins, quantity); };
   return {{"area_px", of(Bins::logarithmic, [](const Label& l) { return std::optional(l.box.area_px()); })},
           {"visibility", of(Bins::share, [](const Label& l) { return l.visibility; })},
           {"contrast_k", of(Bins::linear, [](const Label& l) { return l.contrast_k; })},
@@ -123,7 +123,7 @@ Json histograms_of(const LabelSet& set, const std::vector<std::size_t>& places, 
 
 }  // namespace
 
-std::vector<std::size_t> category_places(const LabelSet& set) {
+std::vector<std::size_t> category_ranks(const LabelSet& set) {
   const std::vector<std::int64_t> counts = labels_of_each(set);
   std::vector<std::size_t> order(counts.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -131,17 +131,17 @@ std::vector<std::size_t> category_places(const LabelSet& set) {
     if (counts[a] != counts[b]) return counts[a] > counts[b];
     return set.categories[a].name < set.categories[b].name;
   });
-  std::vector<std::size_t> places(counts.size());
-  for (std::size_t k = 0; k < order.size(); ++k) places[order[k]] = k;
-  return places;
+  std::vector<std::size_t> ranks(counts.size());
+  for (std::size_t k = 0; k < order.size(); ++k) ranks[order[k]] = k;
+  return ranks;
 }
 
 Json label_figures(const LabelSet& set) {
-  const std::vector<std::size_t> places = category_places(set);
-  const std::vector<std::string> names = used_categories(set, places);
+  const std::vector<std::size_t> ranks = category_ranks(set);
+  const std::vector<std::string> names = ranked_categories(set, ranks);
   Json none = Json::array();
   for (std::size_t k = 0; k < set.categories.size(); ++k) {
-    if (places[k] >= names.size()) none.push_back(set.categories[k].name);
+    if (ranks[k] >= names.size()) none.push_back(set.categories[k].name);
   }
   return {{"images", set.images.size()},
           {"labels", set.labels.size()},
@@ -149,8 +149,8 @@ Json label_figures(const LabelSet& set) {
           {"categories", names},
           {"unused_categories", std::move(none)},
           {"videos", videos_of(set)},
-          {"counts", counts_of(set, places, names.size())},
-          {"histograms", histograms_of(set, places, names.size())},
+          {"counts", counts_of(set, ranks, names.size())},
+          {"histograms", histograms_of(set, ranks, names.size())},
           {"heat", heat_of(set)}};
 }
 

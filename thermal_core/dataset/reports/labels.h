@@ -13,6 +13,6 @@ namespace thermal {
 
 /// For each category of a set, its rank among those with labels, most labels first; ties by name. Categories without
 /// any come last.
-[[nodiscard]] std::vector<std::size_t> category_places(const LabelSet& set);
+[[nodiscard]] std::vector<std::size_t> category_ranks(const LabelSet& set);
 
 }  // namespace thermal

@@ -47,7 +47,7 @@ ReportedFailure reported_failure(const Json& event) {
           .config = text("kind", "") == "config"};
 }
 
-std::string last_words_in(const Path& log, std::uintmax_t from) {
+std::string last_error_line_in(const Path& log, std::uintmax_t from) {
   const std::string tail = tail_of(log, from);
   std::vector<std::string> last;
   for (const std::string_view line : split(tail, '\n')) {
@@ -59,12 +59,12 @@ std::string last_words_in(const Path& log, std::uintmax_t from) {
 }
 
 std::string unreported_end(const ExitStatus& status, const std::string& doing,
-                           const std::string& last_words) {
+                           const std::string& last_error_line) {
   const std::string how = status.signal == 0 && status.code == 0 ? "ended early" : status.in_words();
   std::string end = fmt::format("Blender {} while {}", how, doing);
   if (status.signal == SIGKILL) return fmt::format("{}; {}", end, kKilledHint);
   if (status.is_killed()) return end;
-  return end + (last_words.empty() ? "; it printed nothing" : ": " + last_words);
+  return end + (last_error_line.empty() ? "; it printed nothing" : ": " + last_error_line);
 }
 
 }  // namespace thermal

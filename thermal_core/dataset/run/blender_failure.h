@@ -25,11 +25,11 @@ struct ReportedFailure {
 /// What a Blender printed last, in its own words: up to three lines of `log` from byte `from` on, joined by " / ".
 /// Empty lines and "Blender quit" are left out, a line past 200 bytes is cut, and only the last 64 KiB are read.
 /// Empty if there is nothing, or no log.
-[[nodiscard]] std::string last_words_in(const Path& log, std::uintmax_t from);
+[[nodiscard]] std::string last_error_line_in(const Path& log, std::uintmax_t from);
 
 /// Why a Blender ended that reported no failure, with its last words unless it was killed: "Blender ended with exit
 /// code 1 while building the scene: Error: no memory". `doing` is "building the scene" or the like.
 [[nodiscard]] std::string unreported_end(const ExitStatus& status, const std::string& doing,
-                                         const std::string& last_words);
+                                         const std::string& last_error_line);
 
 }  // namespace thermal

@@ -115,12 +115,12 @@ bool is_to_mend(const ConvertRequest& request, const DatasetIndex& index, const 
 struct Backlog {
   std::set<std::string> missing;
   std::set<std::string> changed;  ///< their passes have changed since
-  std::set<std::string> mended;   ///< can be made with more of their frames
+  std::set<std::string> repaired;   ///< can be made with more of their frames
 
   [[nodiscard]] bool has(const std::string& clip) const {
-    return missing.contains(clip) || changed.contains(clip) || mended.contains(clip);
+    return missing.contains(clip) || changed.contains(clip) || repaired.contains(clip);
   }
-  [[nodiscard]] bool empty() const { return missing.empty() && changed.empty() && mended.empty(); }
+  [[nodiscard]] bool empty() const { return missing.empty() && changed.empty() && repaired.empty(); }
 };
 
 Backlog backlog_of(const ConvertRequest& request, const DatasetIndex& index, const KeptTerms& kept,
@@ -133,7 +133,7 @@ Backlog backlog_of(const ConvertRequest& request, const DatasetIndex& index, con
     } else if (has_new_passes(index, Layout{request.out}, source)) {
       backlog.changed.insert(clip);
     } else if (is_to_mend(request, index, kept, source, heat)) {
-      backlog.mended.insert(clip);
+      backlog.repaired.insert(clip);
     }
   }
   return backlog;

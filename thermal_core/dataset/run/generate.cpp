@@ -13,7 +13,7 @@
 #include "dataset/passes/outline.h"
 #include "dataset/plan/ground_planning.h"
 #include "dataset/run/clip_choice.h"
-#include "dataset/run/disk_room.h"
+#include "dataset/run/disk_space.h"
 #include "dataset/run/monitor.h"
 #include "dataset/run/passes_folder.h"
 #include "dataset/run/tracing.h"
@@ -95,9 +95,9 @@ class Generator {
     try {
       commit(clip, make(clip, tracer, monitor), monitor);
     } catch (const DataError& fault) {
-      lose(clip, fault.what(), false, monitor);
+      fail_clip(clip, fault.what(), false, monitor);
     } catch (const IoError& fault) {
-      lose(clip, fault.what(), false, monitor);
+      fail_clip(clip, fault.what(), false, monitor);
     }
   }
 
@@ -105,7 +105,7 @@ class Generator {
     try {
       commit(clip, make(clip, job, stop_wanted, monitor), monitor);
     } catch (const ClipLost& fault) {
-      lose(clip, fault.what(), fault.killed(), monitor);
+      fail_clip(clip, fault.what(), fault.killed(), monitor);
     } catch (const DataError& fault) {
       reject(clip, fault.what(), monitor);
     } catch (const IoError& fault) {
@@ -124,14 +124,14 @@ class Generator {
   ClipRecord make(const ClipConfig& clip, const PlanTracer& tracer, RunMonitor& monitor) {
     monitor.begin(clip);
     const bool keep = options_.keep_passes;
-    RoomWatch room(config_, clip, layout_, {.passes = keep},
+    SpaceWatch space(config_, clip, layout_, {.passes = keep},
                    [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
     int done = 0;
     const ClipHooks clip_hooks = {.wait_for_frame = {},
                                   .frame_done =
                                       [&] {
-                                        if (keep) room.passes_ready(++done);
-                                        room.pictures_written();
+                                        if (keep) space.passes_ready(++done);
+                                        space.pictures_written();
                                         monitor.frame_done(clip.id);
                                       },
                                   .cancelled = [&monitor] { return monitor.stop_wanted(); }};
@@ -141,18 +141,18 @@ class Generator {
 
   ClipRecord make(const ClipConfig& clip, RenderJob& job, const Stop& stop_wanted, RunMonitor& monitor) {
     monitor.begin(clip);
-    RoomWatch room(config_, clip, layout_, {}, [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
+    SpaceWatch space(config_, clip, layout_, {}, [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
     const Path folder = layout_.passes(clip.id);
     const ClipPasses passes = {.manifest = read_manifest(folder / "manifest.json", options_.assets),
                                .folder = folder};
     const ClipHooks clip_hooks = {.wait_for_frame =
                                       [&](int frame) {
                                         job.wait_for_frame(clip.id, frame, stop_wanted);
-                                        room.passes_ready(job.frames_ready(clip.id));
+                                        space.passes_ready(job.frames_ready(clip.id));
                                       },
                                   .frame_done =
                                       [&] {
-                                        room.pictures_written();
+                                        space.pictures_written();
                                         monitor.frame_done(clip.id);
                                       },
                                   .cancelled = stop_wanted};
@@ -168,10 +168,10 @@ class Generator {
   /// Useless passes are rendered anew by the next run; until then they can be inspected.
   void reject(const ClipConfig& clip, const std::string& why, RunMonitor& monitor) {
     write_file_atomically(layout_.unusable(clip.id), why + "\n");
-    lose(clip, why, false, monitor);
+    fail_clip(clip, why, false, monitor);
   }
 
-  void lose(const ClipConfig& clip, const std::string& why, bool killed, RunMonitor& monitor) {
+  void fail_clip(const ClipConfig& clip, const std::string& why, bool killed, RunMonitor& monitor) {
     transaction_.reject(clip.id, why);
     monitor.lost(clip, why, killed);
   }

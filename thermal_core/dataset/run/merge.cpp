@@ -170,8 +170,8 @@ class Merger {
     const std::vector<int> shards = deal_shards(*options_.config, options_.shards);
     const auto& finished = transaction_.index().finished;
     std::set<int> found;
-    for (std::size_t place = 0; place < shards.size(); ++place)
-      if (!finished.contains(options_.config->clips[place].id)) found.insert(shards[place]);
+    for (std::size_t clip_index = 0; clip_index < shards.size(); ++clip_index)
+      if (!finished.contains(options_.config->clips[clip_index].id)) found.insert(shards[clip_index]);
     outcome_.shards_to_make.assign(found.begin(), found.end());
   }
 

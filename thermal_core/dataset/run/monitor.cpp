@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
-#include "dataset/run/disk_room.h"
+#include "dataset/run/disk_space.h"
 
 namespace thermal {
 
@@ -64,7 +64,7 @@ void RunMonitor::needs(const std::string& clip, std::int64_t bytes) {
     clips.push_back(id);
   }
   const std::string whose = fmt::format("{} {}", clips.size() == 1 ? "clip" : "clips", list_names(clips));
-  check_room(room_left_bytes(out_), all_bytes, out_.string(), whose);
+  check_space(free_bytes(out_), all_bytes, out_.string(), whose);
 }
 
 bool RunMonitor::stop_wanted() {

@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "dataset/clip/pass_source.h"
 #include "dataset/run/clip_choice.h"
-#include "dataset/run/disk_room.h"
+#include "dataset/run/disk_space.h"
 #include "dataset/run/monitor.h"
 #include "dataset/run/passes_folder.h"
 #include "dataset/run/tracing.h"
@@ -21,10 +21,10 @@ namespace thermal {
 namespace {
 
 void render_clip(const ClipConfig& clip, RenderJob& job, const std::function<bool()>& stop_wanted,
-                 RoomWatch& room, RunMonitor& monitor) {
+                 SpaceWatch& space, RunMonitor& monitor) {
   for (int frame = 0; frame < clip.frames; ++frame) {
     job.wait_for_frame(clip.id, frame, stop_wanted);
-    room.passes_ready(job.frames_ready(clip.id));
+    space.passes_ready(job.frames_ready(clip.id));
     monitor.frame_done(clip.id);
   }
 }
@@ -53,10 +53,10 @@ void trace_clips(const std::vector<ClipConfig>& clips, const PlanTracer& tracer,
                  const Layout& layout, RunMonitor& monitor) {
   for (const ClipConfig& clip : clips) {
     monitor.begin(clip);
-    RoomWatch room(config, clip, layout, {.pictures = false},
+    SpaceWatch space(config, clip, layout, {.pictures = false},
                    [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
     trace_clip(clip, tracer.trace(clip.id, layout.passes(clip.id), true), monitor,
-               [&room](int frames) { room.passes_ready(frames); });
+               [&space](int frames) { space.passes_ready(frames); });
     monitor.made(clip);
   }
 }
@@ -112,9 +112,9 @@ RunOutcome render(const Config& config, const DatasetPlan& plan, const GenerateO
     const ClipConfig& clip = config.clip(id, "clips");
     monitor.begin(clip);
     try {
-      RoomWatch room(config, clip, layout, {.pictures = false},
+      SpaceWatch space(config, clip, layout, {.pictures = false},
                      [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
-      render_clip(clip, job, stop_wanted, room, monitor);
+      render_clip(clip, job, stop_wanted, space, monitor);
       monitor.made(clip);
     } catch (const ClipLost& fault) {
       monitor.lost(clip, fault.what(), fault.killed());

@@ -122,7 +122,7 @@ void RenderJob::take_event(const Json& event) {
     leave_if_whole(event.at("clip"));
   } else if (kind == "error") {
     const ReportedFailure failure = reported_failure(event);
-    if (failure.config) run_.blame = Blame::config;
+    if (failure.config) run_.cause = FailureCause::config;
     run_.failure =
         failure.config
             ? failure.message
@@ -144,7 +144,7 @@ bool RenderJob::take_end(const ExitStatus& status) {
   std::unique_lock lock(mutex_);
   if (left_.empty()) return false;  // however it ended: all is there
   explain(status);
-  if (is_disk_full(task_.passes) || run_.blame == Blame::config) throw_failure();
+  if (is_disk_full(task_.passes) || run_.cause == FailureCause::config) throw_failure();
   const std::string clip = left_.front();
   if (may_try_again()) {
     const std::string why = run_.failure;
@@ -153,7 +153,7 @@ bool RenderJob::take_end(const ExitStatus& status) {
     return true;
   }
   if (task_.preview || !run_.scene_built) throw_failure();
-  lost_.emplace(clip, ClipLost(run_.failure, run_.blame == Blame::circumstances));
+  lost_.emplace(clip, ClipLost(run_.failure, run_.cause == FailureCause::circumstances));
   left_.pop_front();
   deaths_in_clip_ = 0;
   changed_.notify_all();
@@ -163,9 +163,9 @@ bool RenderJob::take_end(const ExitStatus& status) {
 /// Puts into words why Blender ended early, unless it did so itself.
 void RenderJob::explain(const ExitStatus& status) {
   if (!run_.failure.empty()) return;
-  if (status.signal != 0) run_.blame = Blame::circumstances;
-  const std::string last_words = last_words_in(task_.log, run_.log_begin);
-  run_.failure = with_log(unreported_end(status, run_.doing, last_words), task_.log);
+  if (status.signal != 0) run_.cause = FailureCause::circumstances;
+  const std::string last_error_line = last_error_line_in(task_.log, run_.log_begin);
+  run_.failure = with_log(unreported_end(status, run_.doing, last_error_line), task_.log);
 }
 
 /// Counts a death.
@@ -178,8 +178,8 @@ bool RenderJob::may_try_again() {
 
 void RenderJob::throw_failure() const {
   if (is_disk_full(task_.passes)) throw TryAgainError(run_.failure + "; the disk is full");
-  if (run_.blame == Blame::config) throw ConfigError(run_.failure);
-  if (run_.blame == Blame::circumstances) throw TryAgainError(run_.failure);
+  if (run_.cause == FailureCause::config) throw ConfigError(run_.failure);
+  if (run_.cause == FailureCause::circumstances) throw TryAgainError(run_.failure);
   throw IoError(run_.failure);
 }
 

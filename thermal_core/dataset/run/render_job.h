@@ -77,11 +77,11 @@ class RenderJob {
 
  private:
   /// Whose doing an early end is.
-  enum class Blame { config, blender, circumstances };
+  enum class FailureCause { config, blender, circumstances };
   /// What is known of the Blender that runs.
   struct Run {
     bool scene_built = false;
-    Blame blame = Blame::blender;
+    FailureCause cause = FailureCause::blender;
     std::string failure;           ///< why it ended early, in one line
     std::uintmax_t log_begin = 0;  ///< where its part of the log begins
     std::string doing = "building the scene";

@@ -54,11 +54,11 @@ void DatasetTransaction::begin(const std::function<void()>& also) {
 }
 
 void DatasetTransaction::commit(const ClipRecord& record) {
-  const Path place = layout_.clip(record.clip);
+  const Path path = layout_.clip(record.clip);
   if (layout_.scratch.empty())
-    replace_folder(unfinished(record.clip), place);
+    replace_folder(unfinished(record.clip), path);
   else
-    put_folder(unfinished(record.clip), place, "clip.json");
+    put_folder(unfinished(record.clip), path, "clip.json");
   change([&] { index_.add(record.clip, record); });
 }
 
@@ -104,24 +104,24 @@ void DatasetTransaction::sweep_half_put() const {
     if (!index_.finished.contains(clip)) (void)sweep_folder(layout_.clip(clip));
 }
 
-std::vector<Path> DatasetTransaction::temporary_places() const {
-  std::vector<Path> places;
+std::vector<Path> DatasetTransaction::temporary_paths() const {
+  std::vector<Path> paths;
   if (layout_.scratch.empty()) {
-    for (const std::string& clip : own_) places.push_back(unfinished(clip));
-    return places;
+    for (const std::string& clip : own_) paths.push_back(unfinished(clip));
+    return paths;
   }
-  for (const std::string& clip : index_.clips) places.push_back(unfinished(clip));
+  for (const std::string& clip : index_.clips) paths.push_back(unfinished(clip));
   for (const char* ending : {".tmp", ".spool"})
-    places.push_back(layout_.scratch / (layout_.annotations_json().filename().string() + ending));
-  return places;
+    paths.push_back(layout_.scratch / (layout_.annotations_json().filename().string() + ending));
+  return paths;
 }
 
 std::vector<LeftOver> DatasetTransaction::sweep() const {
   std::vector<LeftOver> left_over;
   std::error_code error;
   if (std::filesystem::is_symlink(layout_.clips(), error)) return left_over;  // nothing elsewhere is removed
-  for (const Path& place : temporary_places())
-    if (auto left = sweep_folder(place)) left_over.push_back(*std::move(left));
+  for (const Path& path : temporary_paths())
+    if (auto left = sweep_folder(path)) left_over.push_back(*std::move(left));
   return left_over;
 }
 

@@ -63,7 +63,7 @@ class DatasetTransaction {
   void learn();
   void record_all();
   void sweep_half_put() const;
-  [[nodiscard]] std::vector<Path> temporary_places() const;
+  [[nodiscard]] std::vector<Path> temporary_paths() const;
   std::vector<LeftOver> sweep() const;
 
   Layout layout_;

@@ -131,7 +131,7 @@ void CellPainter::paint_bar(const KelvinScale& scale, cv::Mat& picture) {
   const int half_px = letters_.capital_px(label_px) / 2;
   const double least_gap = std::min(1.0, 2.8 * label_px / bar.height_px);
   for (const ScaleTick& tick : ticks_of(scale, least_gap)) {
-    const int y_px = bar.bottom_px() - 1 - static_cast<int>(std::lround(tick.place * (bar.height_px - 1)));
+    const int y_px = bar.bottom_px() - 1 - static_cast<int>(std::lround(tick.position * (bar.height_px - 1)));
     fill(picture, {bar.right_px(), y_px, style_.text_px / 3, std::max(1, line_px_)}, {kDim, 1});
     const int baseline_px = std::clamp(y_px + half_px, bar.y_px + 2 * half_px, bar.bottom_px());
     write(picture, letters_.picture(tick.label, label_px), {bar.right_px() + style_.text_px / 2, baseline_px},
@@ -214,7 +214,7 @@ void CellPainter::paint_tags(const std::vector<const Label*>& labels, bool shutt
                     .track = label->track_id.value_or(first - label - 1)});  // without a track: unique
   constexpr std::int64_t kNoTrack = std::numeric_limits<std::int64_t>::min();
   if (shutter_closed) tags.push_back({.box = shutter_plate(), .tag = {0, 0}, .track = kNoTrack});
-  const std::vector<TagPlace> places = placer_.place(tags);
+  const std::vector<TagPosition> places = placer_.place(tags);
   for (std::size_t k = 0; k < labels.size(); ++k) {
     const PixelRect& tag = places[k].tag;
     const PixelRect& box = tags[k].box;

@@ -14,7 +14,7 @@
 #include "dataset/videos/grid.h"
 #include "dataset/videos/kelvin_scale.h"
 #include "dataset/videos/palette.h"
-#include "dataset/videos/tag_places.h"
+#include "dataset/videos/tag_positions.h"
 #include "dataset/videos/trails.h"
 
 namespace thermal {

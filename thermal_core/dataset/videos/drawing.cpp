@@ -119,11 +119,11 @@ void outline(cv::Mat& picture, const PixelRect& rect, int width_px, const Ink& i
   fill(picture, {rect.right_px(), rect.y_px, w, rect.height_px}, ink);
 }
 
-void draw_line(cv::Mat& picture, const PixelRect& room, const PixelRect& hole,
+void draw_line(cv::Mat& picture, const PixelRect& clip, const PixelRect& hole,
                const std::vector<LinePoint>& points, int width_px, const Ink& ink) {
   constexpr int kBits = 4;  // of a pixel's fractions
   if (points.size() < 2) return;
-  const cv::Rect area = inside(picture, to_cv(room)) & around(points, width_px + 1);
+  const cv::Rect area = inside(picture, to_cv(clip)) & around(points, width_px + 1);
   if (area.empty()) return;
   cv::Mat mask = cv::Mat::zeros(area.size(), CV_8UC1);
   // OpenCV's pixel centres are at whole numbers, ours at halves.

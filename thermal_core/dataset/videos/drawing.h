@@ -66,9 +66,9 @@ struct LinePoint {
   double opacity = 1;
 };
 
-/// An anti-aliased line through points, clipped to the inside of `room` and the outside of `hole`. Points may be
+/// An anti-aliased line through points, clipped to the inside of `clip` and the outside of `hole`. Points may be
 /// anywhere.
-void draw_line(cv::Mat& picture, const PixelRect& room, const PixelRect& hole,
+void draw_line(cv::Mat& picture, const PixelRect& clip, const PixelRect& hole,
                const std::vector<LinePoint>& points, int width_px, const Ink& ink);
 
 }  // namespace thermal

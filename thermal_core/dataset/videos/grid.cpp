@@ -57,19 +57,19 @@ struct Measures {
 };
 
 /// The largest rectangle of the frame's shape in an area, centred at its top.
-PixelRect fitted(const PixelSize& frame, const PixelRect& room) {
-  const double scale = std::min(static_cast<double>(room.width_px) / frame.width_px,
-                                static_cast<double>(room.height_px) / frame.height_px);
+PixelRect fitted(const PixelSize& frame, const PixelRect& area) {
+  const double scale = std::min(static_cast<double>(area.width_px) / frame.width_px,
+                                static_cast<double>(area.height_px) / frame.height_px);
   const int width_px = std::max(1, rounded_px(frame.width_px * scale));
   const int height_px = std::max(1, rounded_px(frame.height_px * scale));
-  return {room.x_px + (room.width_px - width_px) / 2, room.y_px, width_px, height_px};
+  return {area.x_px + (area.width_px - width_px) / 2, area.y_px, width_px, height_px};
 }
 
-GridCell cell_at(int x_px, int y_px, const PixelSize& frame, const PixelSize& room,
+GridCell cell_at(int x_px, int y_px, const PixelSize& frame, const PixelSize& area,
                  const Measures& measures) {
   GridCell cell;
-  cell.picture = fitted(frame, {x_px, y_px + measures.caption_px, room.width_px, room.height_px});
-  cell.caption = {x_px, y_px, room.width_px + measures.bar_px, measures.caption_px};
+  cell.picture = fitted(frame, {x_px, y_px + measures.caption_px, area.width_px, area.height_px});
+  cell.caption = {x_px, y_px, area.width_px + measures.bar_px, measures.caption_px};
   if (measures.bar_px > 0)
     cell.bar = {cell.picture.right_px() + measures.gap_px, cell.picture.y_px,
                 measures.bar_px - measures.gap_px, cell.picture.height_px};
@@ -94,13 +94,13 @@ Grid make_grid(const GridRequest& request) {
   grid.text_px = measures.text_px;
   const int column_px = (grid.width_px - measures.margin_px) / grid.columns;  // with the margin before it
   const int picture_px = std::max(1, column_px - measures.margin_px - measures.bar_px);
-  const PixelSize room{picture_px, std::max(1, rounded_px(picture_px / ratio))};
+  const PixelSize area{picture_px, std::max(1, rounded_px(picture_px / ratio))};
   const int top_px = request.headings ? measures.margin_px + measures.caption_px : measures.margin_px / 2;
-  const int row_px = measures.caption_px + room.height_px + measures.margin_px;
+  const int row_px = measures.caption_px + area.height_px + measures.margin_px;
   const auto left_px = [&](int column) { return measures.margin_px + column * column_px; };
   for (int k = 0; k < cells; ++k)
     grid.cells.push_back(cell_at(left_px(k % grid.columns), top_px + k / grid.columns * row_px,
-                                 request.frames[static_cast<std::size_t>(k)], room, measures));
+                                 request.frames[static_cast<std::size_t>(k)], area, measures));
   for (int k = 0; request.headings && k < grid.columns; ++k)
     grid.headings.push_back(
         {left_px(k), measures.margin_px / 2, picture_px + measures.bar_px, measures.caption_px});

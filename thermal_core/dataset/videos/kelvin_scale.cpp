@@ -31,25 +31,25 @@ class TickFinder {
       add(k * kWidestUnits);
       divide(k * kWidestUnits, kWidestUnits, 1);
     }
-    std::ranges::sort(ticks_, {}, &ScaleTick::place);
+    std::ranges::sort(ticks_, {}, &ScaleTick::position);
     return std::move(ticks_);
   }
 
  private:
-  [[nodiscard]] std::optional<double> place_of(long units) const {
-    return scale_.place_of(static_cast<double>(units) / kUnitsPerKelvin);
+  [[nodiscard]] std::optional<double> position_of(long units) const {
+    return scale_.position_of(static_cast<double>(units) / kUnitsPerKelvin);
   }
 
   void add(long units) {
-    const std::optional<double> place = place_of(units);
+    const std::optional<double> position = position_of(units);
     const double temperature_k = static_cast<double>(units) / kUnitsPerKelvin;
-    if (place) ticks_.push_back({temperature_k, *place, fmt::format("{:g}", temperature_k)});
+    if (position) ticks_.push_back({temperature_k, *position, fmt::format("{:g}", temperature_k)});
   }
 
   [[nodiscard]] bool fits(long from, long width, long parts) const {
     std::optional<double> before;
     for (long k = 0; k <= parts; ++k) {
-      const std::optional<double> here = place_of(from + k * width / parts);
+      const std::optional<double> here = position_of(from + k * width / parts);
       if (before && here && *here - *before < least_gap_) return false;
       before = here;
     }
@@ -57,15 +57,15 @@ class TickFinder {
   }
 
   [[nodiscard]] bool is_free(long units) const {
-    const std::optional<double> place = place_of(units);
-    return place && std::ranges::none_of(ticks_, [&](const ScaleTick& tick) {
-             return std::abs(tick.place - *place) < least_gap_;
+    const std::optional<double> position = position_of(units);
+    return position && std::ranges::none_of(ticks_, [&](const ScaleTick& tick) {
+             return std::abs(tick.position - *position) < least_gap_;
            });
   }
 
   /// Whether both ends are on the scale.
   [[nodiscard]] bool is_inside(long from, long width) const {
-    return place_of(from).has_value() && place_of(from + width).has_value();
+    return position_of(from).has_value() && position_of(from + width).has_value();
   }
 
   /// `leading`: the first digit of the width, 1, 2 or 5. Divides into as many parts as fit or, where the scale is
@@ -79,7 +79,7 @@ class TickFinder {
     for (const long parts : choices) {
       if (width % parts == 0 && fits(from, width, parts)) return divide_into(parts, from, width, leading);
     }
-    if (is_inside(from, width) && *place_of(from + width) - *place_of(from) > least_gap_)
+    if (is_inside(from, width) && *position_of(from + width) - *position_of(from) > least_gap_)
       add_single(choices, from, width, leading);
   }
 
@@ -122,7 +122,7 @@ KelvinRange parse_kelvin_range(std::string_view text) {
                           "LO:HI in kelvin, 0 <= LO < HI <= 10000, such as 270:300"));
 }
 
-std::optional<double> KelvinScale::place_of(double temperature_k) const {
+std::optional<double> KelvinScale::position_of(double temperature_k) const {
   const auto above = std::ranges::upper_bound(edges_k, temperature_k);
   if (above == edges_k.begin()) return std::nullopt;
   const double from = *(above - 1);

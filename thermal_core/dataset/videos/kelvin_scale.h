@@ -29,7 +29,7 @@ struct KelvinScale {
 
   /// Position of a temperature on a bar of 256 bands of equal height, from 0 at the coldest end to 1; linear between
   /// the edges of a level. Empty below the first finite edge and above the last.
-  [[nodiscard]] std::optional<double> place_of(double temperature_k) const;
+  [[nodiscard]] std::optional<double> position_of(double temperature_k) const;
 
   /// Range of place_of(); two equal ends if it is empty.
   [[nodiscard]] KelvinRange known() const;
@@ -49,7 +49,7 @@ struct KelvinScale {
 /// A mark on the bar.
 struct ScaleTick {
   double temperature_k = 0;
-  double place = 0;   ///< as place_of()
+  double position = 0;   ///< as place_of()
   std::string label;  ///< "285", "285.5"
 };
 

@@ -122,8 +122,8 @@ PaletteTable palette_table(const std::string& name) {
 
 PaletteColour category_colour(const LabelId& id) noexcept {
   const auto* const number = std::get_if<std::int64_t>(&id);
-  const std::int64_t place = number == nullptr ? 0 : std::max<std::int64_t>(1, *number) - 1;
-  return kCategoryColours[static_cast<std::size_t>(place) % kCategoryColours.size()];
+  const std::int64_t index = number == nullptr ? 0 : std::max<std::int64_t>(1, *number) - 1;
+  return kCategoryColours[static_cast<std::size_t>(index) % kCategoryColours.size()];
 }
 
 }  // namespace thermal

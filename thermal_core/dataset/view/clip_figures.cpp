@@ -114,9 +114,9 @@ ClipMasks read_clip_masks(const ClipFilm& film) {
   const std::string list = "annotations";
   const std::string file = (film.folder / "labels.json").string();
   ClipMasks masks;
-  (void)read_json_elements(file, [&](const std::string& array, std::size_t place, const Json& json) {
+  (void)read_json_elements(file, [&](const std::string& array, std::size_t entry_index, const Json& json) {
     if (array != list || !json.contains("segmentation") || !json["segmentation"].is_object()) return;
-    const JsonEntry entry(json, file, list, place);
+    const JsonEntry entry(json, file, list, entry_index);
     if (!covers_frame(json["segmentation"], film))
       throw entry.fault_of("segmentation",
                            fmt::format("run lengths of {} x {} px", film.width_px, film.height_px));

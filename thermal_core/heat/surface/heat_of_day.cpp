@@ -82,7 +82,7 @@ Weights smooth_weights(const std::vector<double>& nodes, double value) noexcept 
 }
 
 /// Level ground at a node; leaves deep in a crown get the same share of sun as of sky.
-SurfacePlace level_place(const HeatNodes& nodes, std::size_t node) {
+SurfaceExposure level_exposure(const HeatNodes& nodes, std::size_t node) {
   const std::size_t moistures = nodes.moisture.size();
   const std::size_t suns = nodes.sunlit.size();
   const double sky_view = nodes.sky_view[node / (moistures * suns)];
@@ -126,17 +126,17 @@ const GroundHeat& ground_below(const std::map<std::string, MaterialHeat>& materi
 
 double moisture_after_rain(double days) noexcept { return 0.7 * std::exp(-days / 6); }
 
-SurfaceDay day_of(const MaterialHeat& heat, const GroundHeat& soil, const SurfacePlace& place,
+SurfaceDay day_of(const MaterialHeat& heat, const GroundHeat& soil, const SurfaceExposure& exposure,
                   const DayAround& around, const HeatSteps& steps) {
-  const Site site = {.normal = place.normal, .sky_view = place.sky_view, .sunlit = place.sunlit};
+  const Site site = {.normal = exposure.normal, .sky_view = exposure.sky_view, .sunlit = exposure.sunlit};
   if (const auto* ground = std::get_if<GroundHeat>(&heat))
-    return day_of_ground(at_moisture(ground->states, place.moisture), site, around, steps);
+    return day_of_ground(at_moisture(ground->states, exposure.moisture), site, around, steps);
   if (const auto* slab = std::get_if<SlabHeat>(&heat))
-    return day_of_slab(slab->is_body ? slab->properties : at_depth(slab->properties, place.depth_m), site,
+    return day_of_slab(slab->is_body ? slab->properties : at_depth(slab->properties, exposure.depth_m), site,
                        around, steps);
   const auto& leaves = std::get<LeavesHeat>(heat);
-  const CanopyProperties canopy = at_moisture(leaves.states, place.moisture);
-  CanopyDay day = day_of_canopy(canopy, at_moisture(soil.states, place.moisture), site, around, steps,
+  const CanopyProperties canopy = at_moisture(leaves.states, exposure.moisture);
+  CanopyDay day = day_of_canopy(canopy, at_moisture(soil.states, exposure.moisture), site, around, steps,
                                 leaves.is_cover ? Stand::cover : Stand::alone);
   if (!leaves.is_cover) return std::move(day.leaves);
   for (std::size_t i = 0; i < day.leaves.surface_k.size(); ++i) {
@@ -152,10 +152,10 @@ MaterialMoment::MaterialMoment(HeatNodes nodes, std::vector<double> level_k,
   assert(level_k_.size() == nodes_.count() && slopes_k_.size() == nodes_.moisture.size());
 }
 
-double MaterialMoment::level_k(const SurfacePlace& place) const noexcept {
-  const Weights view = smooth_weights(nodes_.sky_view, place.sky_view);
-  const Weights sun = smooth_weights(nodes_.sunlit, place.sunlit);
-  const Between wet = between_nodes(nodes_.moisture, nodes_.moisture_at(place));
+double MaterialMoment::level_k(const SurfaceExposure& exposure) const noexcept {
+  const Weights view = smooth_weights(nodes_.sky_view, exposure.sky_view);
+  const Weights sun = smooth_weights(nodes_.sunlit, exposure.sunlit);
+  const Between wet = between_nodes(nodes_.moisture, nodes_.moisture_at(exposure));
   const std::size_t next = nodes_.moisture.size() > 1 ? 1 : 0;
   double sum_k = 0;
   for (std::size_t v = 0; v < nodes_.sky_view.size(); ++v) {
@@ -168,10 +168,10 @@ double MaterialMoment::level_k(const SurfacePlace& place) const noexcept {
   return sum_k;
 }
 
-Orientation MaterialMoment::orientation(const SurfacePlace& place) const noexcept {
-  const Between wet = between_nodes(nodes_.moisture, nodes_.moisture_at(place));
+Orientation MaterialMoment::orientation(const SurfaceExposure& exposure) const noexcept {
+  const Between wet = between_nodes(nodes_.moisture, nodes_.moisture_at(exposure));
   const std::size_t next = nodes_.moisture.size() > 1 ? 1 : 0;
-  const double sunlit = std::clamp(place.sunlit, 0.0, 1.0);
+  const double sunlit = std::clamp(exposure.sunlit, 0.0, 1.0);
   Orientation sum;
   sum.sun = slopes_k_[wet.node].sun;
   for (std::size_t i = 0; i < Orientation::kTerms; ++i) {
@@ -179,12 +179,12 @@ Orientation MaterialMoment::orientation(const SurfacePlace& place) const noexcep
     const double high = slopes_k_[wet.node + next].coefficients[i];
     sum.coefficients[i] = sunlit * (low + wet.share * (high - low));
   }
-  sum.coefficients[0] += level_k(place);
+  sum.coefficients[0] += level_k(exposure);
   return sum;
 }
 
-double MaterialMoment::temperature_k(const SurfacePlace& place) const noexcept {
-  return orientation(place).at(place.normal);
+double MaterialMoment::temperature_k(const SurfaceExposure& exposure) const noexcept {
+  return orientation(exposure).at(exposure.normal);
 }
 
 HeatOfDay::HeatOfDay(const DayWeather& weather, std::map<std::string, MaterialHeat> materials,
@@ -202,7 +202,7 @@ void HeatOfDay::compute(const std::set<std::string>& materials) const {
   struct Column {
     const MaterialHeat* heat;
     const GroundHeat* soil;
-    SurfacePlace place;
+    SurfaceExposure exposure;
     SurfaceDay* day;
   };
   std::vector<Column> all;
@@ -213,11 +213,11 @@ void HeatOfDay::compute(const std::set<std::string>& materials) const {
     const GroundHeat& below = ground_below(materials_, name);
     Columns& columns = columns_.emplace(name, Columns{nodes_of(heat), fit_of(heat), {}, {}}).first->second;
     const HeatNodes& nodes = columns.nodes;
-    const auto add = [&](const SurfacePlace& place, SurfaceDay& day) {
-      all.push_back({&heat, &below, place, &day});
+    const auto add = [&](const SurfaceExposure& exposure, SurfaceDay& day) {
+      all.push_back({&heat, &below, exposure, &day});
     };
     columns.level.resize(nodes.count());
-    for (std::size_t i = 0; i < nodes.count(); ++i) add(level_place(nodes, i), columns.level[i]);
+    for (std::size_t i = 0; i < nodes.count(); ++i) add(level_exposure(nodes, i), columns.level[i]);
     const std::size_t slopes = columns.fit.directions().size() - 1;
     columns.slopes.resize(slopes * nodes.moisture.size());
     for (std::size_t i = 0; i < columns.slopes.size(); ++i) {
@@ -228,7 +228,7 @@ void HeatOfDay::compute(const std::set<std::string>& materials) const {
   const DayAround around = {.forcing = forcing_, .ground_k = ground_.surface_k};
   parallel_for(all.size(), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      *all[i].day = day_of(*all[i].heat, *all[i].soil, all[i].place, around, steps_);
+      *all[i].day = day_of(*all[i].heat, *all[i].soil, all[i].exposure, around, steps_);
   });
 }
 

@@ -14,7 +14,7 @@
 namespace thermal {
 
 /// Exposure of a surface to sky, sun and water.
-struct SurfacePlace {
+struct SurfaceExposure {
   EastNorthUp normal = {0, 0, 1};
   double sky_view = 1;  ///< share of the sky that its slope leaves and nothing hides, 0 to 1
   double sunlit = 1;    ///< share of the day's sunbeams that reach it, 0 to 1
@@ -33,8 +33,8 @@ struct HeatNodes {
   std::vector<double> moisture;  ///< of water, its depth [m]
   bool is_water = false;
 
-  [[nodiscard]] double moisture_at(const SurfacePlace& place) const noexcept {
-    return is_water ? place.depth_m : place.moisture;
+  [[nodiscard]] double moisture_at(const SurfaceExposure& exposure) const noexcept {
+    return is_water ? exposure.depth_m : exposure.moisture;
   }
   [[nodiscard]] std::size_t count() const noexcept {
     return sky_view.size() * sunlit.size() * moisture.size();
@@ -48,13 +48,13 @@ class MaterialMoment {
   MaterialMoment(HeatNodes nodes, std::vector<double> level_k, std::vector<Orientation> slopes_k);
 
   /// Values outside of the nodes count as the nearest node's.
-  [[nodiscard]] double temperature_k(const SurfacePlace& place) const noexcept;
+  [[nodiscard]] double temperature_k(const SurfaceExposure& exposure) const noexcept;
 
   /// The same as a function of the normal.
-  [[nodiscard]] Orientation orientation(const SurfacePlace& place) const noexcept;
+  [[nodiscard]] Orientation orientation(const SurfaceExposure& exposure) const noexcept;
 
  private:
-  [[nodiscard]] double level_k(const SurfacePlace& place) const noexcept;
+  [[nodiscard]] double level_k(const SurfaceExposure& exposure) const noexcept;
 
   HeatNodes nodes_;
   std::vector<double> level_k_;
@@ -112,7 +112,7 @@ class HeatOfDay {
 };
 
 /// The day of one piece of a material. `soil` is the ground below leaves, `open_ground_k` what slopes face.
-[[nodiscard]] SurfaceDay day_of(const MaterialHeat& heat, const GroundHeat& soil, const SurfacePlace& place,
+[[nodiscard]] SurfaceDay day_of(const MaterialHeat& heat, const GroundHeat& soil, const SurfaceExposure& exposure,
                                 const DayAround& around, const HeatSteps& steps);
 
 }  // namespace thermal

@@ -31,13 +31,13 @@ std::vector<Forcing> forcing_of(const Conditions& conditions, int steps) {
 SurfaceDay open_day(const MaterialHeat& heat, const GroundHeat& soil, const Conditions& conditions,
                     const HeatSteps& steps) {
   const std::vector<Forcing> forcing = forcing_of(conditions, steps.per_day);
-  SurfacePlace place = {.moisture = moisture_after_rain(conditions.weather.rain_days_ago)};
+  SurfaceExposure exposure = {.moisture = moisture_after_rain(conditions.weather.rain_days_ago)};
   const auto* leaves = std::get_if<LeavesHeat>(&heat);
-  if (leaves == nullptr || leaves->is_cover) return day_of(heat, soil, place, {.forcing = forcing}, steps);
+  if (leaves == nullptr || leaves->is_cover) return day_of(heat, soil, exposure, {.forcing = forcing}, steps);
   std::vector<double> ground_k;
-  if (!conditions.even_air) ground_k = day_of(soil, soil, place, {.forcing = forcing}, steps).surface_k;
-  place.sky_view = place.sunlit = kSeenInCrown;
-  return day_of(heat, soil, place, {.forcing = forcing, .ground_k = ground_k}, steps);
+  if (!conditions.even_air) ground_k = day_of(soil, soil, exposure, {.forcing = forcing}, steps).surface_k;
+  exposure.sky_view = exposure.sunlit = kSeenInCrown;
+  return day_of(heat, soil, exposure, {.forcing = forcing, .ground_k = ground_k}, steps);
 }
 
 const GroundHeat& ground_below(const Materials& materials, const MaterialHeat& heat) {

@@ -34,7 +34,7 @@ Planes planes_of(const Passes& passes, const std::string& layer, const std::stri
   if (passes.fine.factor > 1) {
     Planes planes = planes_of(filled_in(passes), layer, actor_layer);
     planes.emplace(fmt::format("{}.{}.X", layer, kSampledPass),
-                   as_floats(sampled_places(passes.fine, passes.object_index.width_px())));
+                   as_floats(sampled_mask(passes.fine, passes.object_index.width_px())));
     return planes;
   }
   Planes planes = {{layer + ".IndexOB.X", as_floats(passes.object_index)},

@@ -11,7 +11,7 @@ namespace thermal {
 /// The layer of mirrored surfaces.
 inline constexpr std::string_view kMirrorLayer = "Mirror";
 
-/// The pass, in the layer of the object index, that is 1 where a pixel has samples of its own (sampled_places()), in
+/// The pass, in the layer of the object index, that is 1 where a pixel has samples of its own (sampled_mask()), in
 /// files of adaptively sampled passes.
 inline constexpr std::string_view kSampledPass = "Sampled";
 

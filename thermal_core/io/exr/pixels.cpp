@@ -31,7 +31,7 @@ int width_of(const Box2i& window) { return window.max.x - window.min.x + 1; }
 int height_of(const Box2i& window) { return window.max.y - window.min.y + 1; }
 
 /// Resizes a target's plane, fills it with `outside`, and returns a pointer to its pixels.
-char* make_room(const ExrTarget& target, const Box2i& display) {
+char* sized_plane(const ExrTarget& target, const Box2i& display) {
   const auto make = [&](auto& plane) {
     using Pixel = std::remove_cvref_t<decltype(plane.pixels().front())>;
     static_assert(sizeof(Pixel) == kBytes);
@@ -100,7 +100,7 @@ struct Job {
 };
 
 /// Destination of a strip's pixels of a channel: the first pixel, and the line stride.
-struct LinePlace {
+struct LineDestination {
   char* first = nullptr;
   std::size_t bytes_a_line = 0;
 };
@@ -121,12 +121,12 @@ void read_strip(Imf::MultiPartInputFile& file, int number, const Strip& strip,
 
 /// The fast path for most files: a whole part, in a lossless compression.
 void read_whole_part(const Source& source, int number, const std::vector<Job>& jobs,
-                     const std::vector<LinePlace>& places) {
+                     const std::vector<LineDestination>& destinations) {
   std::vector<ChannelTarget> targets;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     targets.push_back({.channel = jobs[i].channel,
-                       .first = places[i].first,
-                       .bytes_a_line = static_cast<std::int32_t>(places[i].bytes_a_line),
+                       .first = destinations[i].first,
+                       .bytes_a_line = static_cast<std::int32_t>(destinations[i].bytes_a_line),
                        .whole = jobs[i].type == Imf::UINT});
   }
   decode_part(source.name, number, targets);
@@ -143,18 +143,18 @@ bool can_unpack(const Imf::ChannelList& channels, const std::vector<Job>& jobs) 
 }
 
 void read_to(const Source& source, int number, const Strip& strip, const std::vector<Job>& jobs,
-             const std::vector<LinePlace>& places) {
+             const std::vector<LineDestination>& destinations) {
   const Imf::Header& header = source.file.header(number);
   if (!source.file.partComplete(number))
     throw IoError(fmt::format("part {} lacks pixels; expected a completely written file", number));
   const bool whole = strip.window == header.dataWindow();
   if (whole && can_decode(header.compression()) && can_unpack(header.channels(), jobs)) {
-    read_whole_part(source, number, jobs, places);
+    read_whole_part(source, number, jobs, destinations);
     return;
   }
   Imf::FrameBuffer buffer;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    const auto& [first, bytes_a_line] = places[i];
+    const auto& [first, bytes_a_line] = destinations[i];
     buffer.insert(jobs[i].channel, Imf::Slice::Make(jobs[i].type, first, strip.window, kBytes, bytes_a_line));
   }
   read_strip(source.file, number, strip, buffer);
@@ -166,9 +166,9 @@ void read_into_planes(const Source& source, int number, const Strip& strip, cons
   const std::size_t bytes_a_line = kBytes * static_cast<std::size_t>(width_of(display));
   const std::size_t before = bytes_a_line * static_cast<std::size_t>(strip.window.min.y - display.min.y) +
                              kBytes * static_cast<std::size_t>(strip.window.min.x - display.min.x);
-  std::vector<LinePlace> places;
-  for (const Job& job : jobs) places.push_back({.first = job.pixels + before, .bytes_a_line = bytes_a_line});
-  read_to(source, number, strip, jobs, places);
+  std::vector<LineDestination> destinations;
+  for (const Job& job : jobs) destinations.push_back({.first = job.pixels + before, .bytes_a_line = bytes_a_line});
+  read_to(source, number, strip, jobs, destinations);
 }
 
 using Bits = Plane<std::uint32_t>;
@@ -188,13 +188,13 @@ void crop(const Bits& strip, const Box2i& window, char* to, const Box2i& display
 
 void read_and_crop(const Source& source, int number, const Strip& strip, const std::vector<Job>& jobs) {
   std::vector<Bits> strips(jobs.size());
-  std::vector<LinePlace> places;
+  std::vector<LineDestination> destinations;
   for (Bits& bits : strips) {
     bits = Bits(width_of(strip.window), height_of(strip.window));
-    places.push_back({.first = reinterpret_cast<char*>(bits.pixels().data()),
+    destinations.push_back({.first = reinterpret_cast<char*>(bits.pixels().data()),
                       .bytes_a_line = kBytes * static_cast<std::size_t>(width_of(strip.window))});
   }
-  read_to(source, number, strip, jobs, places);
+  read_to(source, number, strip, jobs, destinations);
   for (std::size_t i = 0; i < jobs.size(); ++i)
     crop(strips[i], strip.window, jobs[i].pixels, source.file.header(number).displayWindow());
 }
@@ -236,7 +236,7 @@ void decode(Imf::MultiPartInputFile& file, const Path& name, const std::vector<E
     rounds[{round, channel.part}].push_back(
         {.channel = channel.name,
          .type = type_of(target),
-         .pixels = make_room(target, file.header(channel.part).displayWindow())});
+         .pixels = sized_plane(target, file.header(channel.part).displayWindow())});
   }
   for (const auto& [key, jobs] : rounds) read_part({.file = file, .name = name}, key.second, jobs);
 }

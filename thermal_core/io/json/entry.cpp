@@ -46,10 +46,10 @@ void check_version(const Json& document, const std::string& file, int version) {
                         fmt::format("{}, the version that this program reads", version)));
 }
 
-JsonEntry::JsonEntry(const Json& json, const std::string& file, const std::string& list, std::size_t place)
-    : json_(json), file_(file), list_(&list), place_(place) {
+JsonEntry::JsonEntry(const Json& json, const std::string& file, const std::string& list, std::size_t index)
+    : json_(json), file_(file), list_(&list), place_(index) {
   if (!json.is_object())
-    throw DataError(fault(fmt::format("{}: {}[{}]", file, list, place), brief(json), "", "an object"));
+    throw DataError(fault(fmt::format("{}: {}[{}]", file, list, index), brief(json), "", "an object"));
 }
 
 JsonEntry::JsonEntry(const Json& json, const std::string& file) : json_(json), file_(file) {
@@ -124,10 +124,10 @@ LabelBox JsonEntry::box(const char* key) const {
 }
 
 DataError JsonEntry::fault_of(const char* key, const std::string& rule) const {
-  return DataError(fault(place_of(key), json_.contains(key) ? brief(json_[key]) : "nothing", "", rule));
+  return DataError(fault(location_of(key), json_.contains(key) ? brief(json_[key]) : "nothing", "", rule));
 }
 
-std::string JsonEntry::place_of(const char* key) const {
+std::string JsonEntry::location_of(const char* key) const {
   return list_ == nullptr ? fmt::format("{}: {}", file_, key)
                           : fmt::format("{}: {}[{}].{}", file_, *list_, place_, key);
 }

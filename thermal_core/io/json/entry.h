@@ -26,7 +26,7 @@ class JsonEntry {
  public:
   /// `list` is empty if the file itself is the list. All arguments must outlive the entry. DataError if it is not an
   /// object.
-  JsonEntry(const Json& json, const std::string& file, const std::string& list, std::size_t place);
+  JsonEntry(const Json& json, const std::string& file, const std::string& list, std::size_t index);
   /// The file's only object: faults are "FILE: KEY = VALUE; expected RULE".
   JsonEntry(const Json& json, const std::string& file);
 
@@ -51,7 +51,7 @@ class JsonEntry {
 
   [[nodiscard]] DataError fault_of(const char* key, const std::string& rule) const;
   /// "FILE: LIST[PLACE].KEY", for messages.
-  [[nodiscard]] std::string place_of(const char* key) const;
+  [[nodiscard]] std::string location_of(const char* key) const;
 
  private:
   [[nodiscard]] const Json& at(const char* key) const;

@@ -39,7 +39,7 @@ struct Row {
 };
 
 /// Position of a row, for messages.
-struct Place {
+struct Location {
   std::string file;
   int line = 0;
 
@@ -54,10 +54,10 @@ std::string_view trimmed(std::string_view cell) {
   return cell.substr(0, cell.find_last_not_of(' ') + 1);
 }
 
-std::array<std::int64_t, kColumns> numbers_of(std::string_view line, const Place& place) {
+std::array<std::int64_t, kColumns> numbers_of(std::string_view line, const Location& location) {
   const std::vector<std::string_view> cells = split(line, ',');
   if (cells.size() != kColumns) {
-    throw place.fault_of(fmt::format("{} columns", cells.size()),
+    throw location.fault_of(fmt::format("{} columns", cells.size()),
                          "10: frame, object_id, x_min, y_min, w, h, class, species, occluded, noisy");
   }
   std::array<std::int64_t, kColumns> numbers{};
@@ -65,43 +65,43 @@ std::array<std::int64_t, kColumns> numbers_of(std::string_view line, const Place
     const std::optional<std::int64_t> number = number_in<std::int64_t>(trimmed(cells[i]));
     const bool fits = i == kObjectColumn || (number && std::in_range<int>(*number));
     if (!number || !fits)
-      throw place.fault_of(fmt::format("column {} is \"{}\"", i + 1, cells[i]), "a whole number");
+      throw location.fault_of(fmt::format("column {} is \"{}\"", i + 1, cells[i]), "a whole number");
     numbers[i] = *number;
   }
   return numbers;
 }
 
-std::string_view category_of(std::int64_t animal_or_human, std::int64_t species, const Place& place) {
+std::string_view category_of(std::int64_t animal_or_human, std::int64_t species, const Location& location) {
   if (animal_or_human != 0 && animal_or_human != 1)
-    throw place.fault_of(fmt::format("class {}", animal_or_human), "0 (animal) or 1 (human)");
+    throw location.fault_of(fmt::format("class {}", animal_or_human), "0 (animal) or 1 (human)");
   if (species < -1 || species >= static_cast<int>(kSpecies.size()))
-    throw place.fault_of(fmt::format("species {}", species), "-1 (unknown) to 8 (rhino)");
+    throw location.fault_of(fmt::format("species {}", species), "-1 (unknown) to 8 (rhino)");
   if (species == -1) return animal_or_human == 1 ? kSpecies[0] : kUnknownAnimal;
   if ((species == 0) != (animal_or_human == 1))
-    throw place.fault_of(fmt::format("class {} with species {}", animal_or_human, species),
+    throw location.fault_of(fmt::format("class {} with species {}", animal_or_human, species),
                          "class 1 with species 0 or -1, class 0 with another");
   return kSpecies[static_cast<std::size_t>(species)];
 }
 
-bool flag_of(std::int64_t number, const char* name, const Place& place) {
-  if (number != 0 && number != 1) throw place.fault_of(fmt::format("{} {}", name, number), "0 or 1");
+bool flag_of(std::int64_t number, const char* name, const Location& location) {
+  if (number != 0 && number != 1) throw location.fault_of(fmt::format("{} {}", name, number), "0 or 1");
   return number == 1;
 }
 
-Row row_of(std::string_view line, const Place& place) {
-  const std::array<std::int64_t, kColumns> n = numbers_of(line, place);
-  if (n[0] < 0) throw place.fault_of(fmt::format("frame {}", n[0]), "0 or more");
+Row row_of(std::string_view line, const Location& location) {
+  const std::array<std::int64_t, kColumns> n = numbers_of(line, location);
+  if (n[0] < 0) throw location.fault_of(fmt::format("frame {}", n[0]), "0 or more");
   if (n[4] < 0 || n[5] < 0)
-    throw place.fault_of(fmt::format("a box of {} x {} px", n[4], n[5]), "sides that are not negative");
+    throw location.fault_of(fmt::format("a box of {} x {} px", n[4], n[5]), "sides that are not negative");
   return {.frame = static_cast<int>(n[0]),
           .object = n[1],
           .box = {.x_px = static_cast<double>(n[2]),
                   .y_px = static_cast<double>(n[3]),
                   .width_px = static_cast<double>(n[4]),
                   .height_px = static_cast<double>(n[5])},
-          .category = category_of(n[6], n[7], place),
-          .occluded = flag_of(n[8], "occluded", place),
-          .noisy = flag_of(n[9], "noisy", place)};
+          .category = category_of(n[6], n[7], location),
+          .occluded = flag_of(n[8], "occluded", location),
+          .noisy = flag_of(n[9], "noisy", location)};
 }
 
 /// Files of a folder with one of these extensions, in the order of their names; empty if the folder does not exist.
@@ -157,14 +157,14 @@ class BirdsaiReader {
     const std::string text = read_text_file(file);
     std::vector<Row> rows;
     std::set<std::pair<int, std::int64_t>> seen;
-    Place place{.file = file.string()};
+    Location location{.file = file.string()};
     for (std::string_view line : split(text, '\n')) {
-      ++place.line;
+      ++location.line;
       if (line.ends_with('\r')) line.remove_suffix(1);
       if (line.empty()) continue;
-      rows.push_back(row_of(line, place));
+      rows.push_back(row_of(line, location));
       if (!seen.emplace(rows.back().frame, rows.back().object).second) {
-        throw place.fault_of(
+        throw location.fault_of(
             fmt::format("object {} appears twice in frame {}", rows.back().object, rows.back().frame),
             "once");
       }

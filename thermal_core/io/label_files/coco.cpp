@@ -240,9 +240,9 @@ class CocoReader {
   void place_labels() {
     std::map<std::size_t, std::size_t> empty;  // index of an annotation, by picture
     for (UnresolvedLabel& read : labels_) {
-      read.label.image = place_of(image_places_, read.place, "image_id", read.image_id, "images");
+      read.label.image = location_of(image_places_, read.place, "image_id", read.image_id, "images");
       read.label.category =
-          place_of(category_places_, read.place, "category_id", read.category_id, "categories");
+          location_of(category_places_, read.place, "category_id", read.category_id, "categories");
       if (read.has_box) check_inside(read.place, read.label.box, set_.images[read.label.image]);
       if (read.has_box) continue;
       if (!is_empty(set_.categories[read.label.category]))
@@ -280,7 +280,7 @@ class CocoReader {
     return DataError(fault(fmt::format("{}: annotations[{}].{}", file_, label, key), value, "", rule));
   }
 
-  std::size_t place_of(const Places& places, std::size_t label, const char* key, const LabelId& id,
+  std::size_t location_of(const Places& places, std::size_t label, const char* key, const LabelId& id,
                        const char* list) const {
     const auto found = places.find(id);
     if (found != places.end()) return found->second;

@@ -85,7 +85,7 @@ class PictureFinder {
   }
 
   std::size_t named(const JsonEntry& entry, const char* key, const std::string& name) {
-    const auto image = names().find(name, entry.place_of(key));
+    const auto image = names().find(name, entry.location_of(key));
     if (image) return *image;
     throw entry.fault_of(key,
                          "the id or the name of one of the truth's pictures" + names().suggestion_for(name));

@@ -160,7 +160,7 @@ void end_group_of(int process, int options) {
 
 /// Reads all pipes to their ends, in any order; `look` is called after each piece.
 void read_all(int process, const std::array<Pipe, kStreams>& pipes, std::array<std::string, kStreams>& texts,
-              const std::function<void()>& look) {
+              const std::function<void()>& check) {
   constexpr int kSilenceMs = 100;
   std::array<pollfd, kStreams> waiting{};
   for (std::size_t i = 0; i < kStreams; ++i)
@@ -180,7 +180,7 @@ void read_all(int process, const std::array<Pipe, kStreams>& pipes, std::array<s
       waiting[i].fd = -1;
       --open;
     }
-    look();
+    check();
   }
 }
 
@@ -273,7 +273,7 @@ void ChildProcess::stop() {
   (void)try_wait(0);
 }
 
-std::string Output::last_words() const {
+std::string Output::last_error_line() const {
   std::string last;
   std::istringstream lines(error);
   for (std::string line; std::getline(lines, line);) {

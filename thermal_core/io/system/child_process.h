@@ -83,7 +83,7 @@ struct Output {
   std::string error;
 
   /// The last non-empty line of `error`, usually the error message; empty if there is none.
-  [[nodiscard]] std::string last_words() const;
+  [[nodiscard]] std::string last_error_line() const;
 };
 /// Runs a program to its end, in child_environment(), with `input` as its standard input. `take_event` receives each
 /// line that it writes to ChildProcess::kEventDescriptor, which is open only with `take_event`. Its children that still

@@ -75,7 +75,7 @@ std::vector<CpuGroup> cpu_groups(std::string_view content) {
 std::optional<double> smallest_cpu_limit(const Path& root) {
   const Path mounts = root / "sys/fs/cgroup";
   std::optional<double> smallest;
-  const auto look_in = [&smallest](const Path& group, int version) {
+  const auto check_group = [&smallest](const Path& group, int version) {
     const std::optional<double> limit = limit_in(group, version);
     if (limit) smallest = std::min(*limit, smallest.value_or(*limit));
   };
@@ -83,8 +83,8 @@ std::optional<double> smallest_cpu_limit(const Path& root) {
     const Path mount = group.version == 2 ? mounts : mounts / "cpu";
     // In a container, the path may be that on the host, and the container's own group is the mount.
     for (Path path = group.path; !path.empty(); path = path.parent_path())
-      look_in(mount / path, group.version);
-    look_in(mount, group.version);
+      check_group(mount / path, group.version);
+    check_group(mount, group.version);
   }
   return smallest;
 }

@@ -77,8 +77,8 @@ void check_can_end(const Descriptor& in, const Path& file) {
 
 }  // namespace
 
-void fail_at(std::string_view doing, const Path& place, int error) {
-  const std::string message = fmt::format("cannot {} {}: {}", doing, place.string(), std::strerror(error));
+void fail_at(std::string_view doing, const Path& location, int error) {
+  const std::string message = fmt::format("cannot {} {}: {}", doing, location.string(), std::strerror(error));
   if (error == ENOSPC || error == EDQUOT) throw TryAgainError(message);
   throw IoError(message);
 }
@@ -125,11 +125,11 @@ void check_is_file(const Path& file) {
                             type == Type::directory ? "a folder" : "a pipe or a device"));
 }
 
-void check_is_no_link(const Path& place) {
+void check_is_no_link(const Path& location) {
   std::error_code error;
-  const Path target = std::filesystem::read_symlink(place, error);
+  const Path target = std::filesystem::read_symlink(location, error);
   if (error) return;
-  throw IoError(fault(place.string(), fmt::format("a link to {}", target.string()), "",
+  throw IoError(fault(location.string(), fmt::format("a link to {}", target.string()), "",
                       "a path that is not a link; nothing elsewhere is read or written"));
 }
 
@@ -154,9 +154,9 @@ void check_has_no_links(const Path& folder) {
 namespace {
 
 /// Renames a file. False, with nothing changed, where that is impossible: on an object store, or across file systems.
-bool can_rename(const Path& from, const Path& place) {
-  if (::rename(from.c_str(), place.c_str()) == 0) return true;
-  if (errno != ENOSYS && errno != EOPNOTSUPP && errno != EXDEV) fail_at("rename to", place, errno);
+bool can_rename(const Path& from, const Path& location) {
+  if (::rename(from.c_str(), location.c_str()) == 0) return true;
+  if (errno != ENOSYS && errno != EOPNOTSUPP && errno != EXDEV) fail_at("rename to", location, errno);
   return false;
 }
 
@@ -216,7 +216,7 @@ void sync_folder(const Path& folder) {
   if (::fsync(descriptor.number()) != 0 && errno != EINVAL) fail_at("sync", named, errno);
 }
 
-std::int64_t room_left_bytes(const Path& folder) {
+std::int64_t free_bytes(const Path& folder) {
   std::error_code error;
   const std::filesystem::space_info space = std::filesystem::space(folder, error);
   if (error) fail_at("get the free disk space of", folder, error.value());
@@ -259,15 +259,15 @@ struct RemoveAtEnd {
 
 }  // namespace
 
-std::string OutputFile::close_as(const Path& place) {
+std::string OutputFile::close_as(const Path& location) {
   if (std::fflush(stream_.get()) != 0 || ::fsync(::fileno(stream_.get())) != 0)
     fail_at("write", file_, errno);
   std::string sum = close();
-  if (!can_rename(file_, place)) {
+  if (!can_rename(file_, location)) {
     const RemoveAtEnd remove{file_};
-    write_in_place(place, [this](const Path& as) { copy_content(file_, as); });
+    write_in_place(location, [this](const Path& as) { copy_content(file_, as); });
   }
-  sync_folder(place.parent_path());
+  sync_folder(location.parent_path());
   return sum;
 }
 
@@ -300,40 +300,40 @@ void make_own_folder(const Path& folder) {
   make_folder(folder);
 }
 
-void replace_folder(const Path& whole, const Path& place) {
-  std::error_code error = rename_with(whole, place, RENAME_EXCHANGE);
+void replace_folder(const Path& whole, const Path& location) {
+  std::error_code error = rename_with(whole, location, RENAME_EXCHANGE);
   if (!error) (void)sweep_folder(whole);
-  if (error.value() == ENOENT) error = rename_with(whole, place, 0);
-  if (error.value() == EINVAL || error.value() == ENOSYS) error = rename_after_removal(whole, place);
-  if (error) fail_at("rename to", place, error.value());
-  sync_folder(place.parent_path());
+  if (error.value() == ENOENT) error = rename_with(whole, location, 0);
+  if (error.value() == EINVAL || error.value() == ENOSYS) error = rename_after_removal(whole, location);
+  if (error) fail_at("rename to", location, error.value());
+  sync_folder(location.parent_path());
 }
 
-void put_folder(const Path& whole, const Path& place, const Path& last) {
+void put_folder(const Path& whole, const Path& location, const Path& last) {
   std::vector<Path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(whole))
     if (!entry.is_directory()) files.push_back(entry.path().lexically_relative(whole));
   std::ranges::sort(files);
   std::erase(files, last);
-  make_fresh_folder(place);
+  make_fresh_folder(location);
   try {
     for (const Path& file : files) {
-      make_folder((place / file).parent_path());
-      copy_content(whole / file, place / file);
+      make_folder((location / file).parent_path());
+      copy_content(whole / file, location / file);
     }
-    write_file_atomically(place / last, read_file(whole / last));
+    write_file_atomically(location / last, read_file(whole / last));
   } catch (...) {
-    (void)sweep_folder(place);
+    (void)sweep_folder(location);
     throw;
   }
   (void)sweep_folder(whole);
 }
 
-std::optional<LeftOver> sweep_folder(const Path& place) {
+std::optional<LeftOver> sweep_folder(const Path& location) {
   std::error_code error;
-  std::filesystem::remove_all(place, error);
+  std::filesystem::remove_all(location, error);
   if (!error) return std::nullopt;
-  return LeftOver{.place = place, .reason = error.message()};
+  return LeftOver{.location = location, .reason = error.message()};
 }
 
 namespace {

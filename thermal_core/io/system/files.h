@@ -21,7 +21,7 @@ using Path = std::filesystem::path;
 
 /// An error of the system by its number: "cannot DOING PLACE: reason". TryAgainError if the disk is full, otherwise
 /// IoError.
-[[noreturn]] void fail_at(std::string_view doing, const Path& place, int error);
+[[noreturn]] void fail_at(std::string_view doing, const Path& location, int error);
 
 /// Content of a file or a pipe in pieces of at most 64 KiB, in order. A pipe without a writer is empty. IoError with the
 /// file and the system's reason, or if it is a folder or a device.
@@ -38,7 +38,7 @@ void read_pieces(const Path& file, const std::function<void(std::string_view pie
 void check_is_file(const Path& file);
 
 /// Refuses a symbolic link: reading or writing would follow it elsewhere. IoError with link and target.
-void check_is_no_link(const Path& place);
+void check_is_no_link(const Path& location);
 
 /// For a file that belongs to a dataset: neither it nor its folder is a link, and it is a regular file. IoError as both
 /// checks above.
@@ -70,7 +70,7 @@ void make_folder(const Path& folder);
 void sync_folder(const Path& folder);
 
 /// Bytes that this user may still write at this folder. IoError with the folder and the system's reason.
-[[nodiscard]] std::int64_t room_left_bytes(const Path& folder);
+[[nodiscard]] std::int64_t free_bytes(const Path& folder);
 
 /// A file written piece by piece together with its checksum; nothing of it stays in memory. All functions may throw
 /// an IoError with the file and the system's reason, or a TryAgainError if the disk is full.
@@ -90,7 +90,7 @@ class OutputFile {
 
   /// close(), with the file flushed to disk and moved to `place`, which is complete or unchanged, as in
   /// write_file_atomically(); `place` may be on another file system.
-  std::string close_as(const Path& place);
+  std::string close_as(const Path& location);
 
  private:
   struct Close {
@@ -115,22 +115,22 @@ void make_own_folder(const Path& folder);
 /// Renames a complete folder to `place`, replacing an existing one in one step: readers see either the old or the new
 /// folder, also after a crash. Parts of the old one that cannot be removed stay at `whole`. IoError or TryAgainError
 /// with `place`.
-void replace_folder(const Path& whole, const Path& place);
+void replace_folder(const Path& whole, const Path& location);
 
 /// Copies the files of a complete folder to `place` one by one, `last` last, then removes the folder, as far as
 /// possible. Existing contents of `place` are removed first. For file systems that cannot rename folders: readers treat
 /// the folder as complete once it has `last`, which appears with its whole content.
 /// IoError with the file and the system's reason; TryAgainError if the disk is full.
-void put_folder(const Path& whole, const Path& place, const Path& last);
+void put_folder(const Path& whole, const Path& location, const Path& last);
 
 /// A temporary file or folder of ours that could not be removed.
 struct LeftOver {
-  Path place;
+  Path location;
   std::string reason;  ///< of the system
 };
 
 /// Removes a folder with its contents, or a file; of links, only the links. Returns what could not be removed.
-std::optional<LeftOver> sweep_folder(const Path& place);
+std::optional<LeftOver> sweep_folder(const Path& location);
 
 /// How to create a second name of a file.
 enum class Linking { hard, symlink, copy };

@@ -71,8 +71,8 @@ FolderLock::FolderLock(const Path& folder) {
 FolderLock::FolderLock(const Path& folder, const std::vector<std::size_t>& places) {
   LockFile lock(folder);
   take(lock, F_RDLCK, kSharedByte, 1, folder);
-  for (const std::size_t place : places)
-    take(lock, F_WRLCK, kFirstPlace + static_cast<off_t>(place), 1, folder);
+  for (const std::size_t path : places)
+    take(lock, F_WRLCK, kFirstPlace + static_cast<off_t>(path), 1, folder);
   descriptor_ = lock.release();
 }
 

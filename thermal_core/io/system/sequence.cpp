@@ -123,16 +123,16 @@ NamePattern::Fits NamePattern::fits_of(std::string_view name) const {
   return fits;
 }
 
-std::optional<NumberPlace> NamePattern::match(std::string_view name) const {
+std::optional<NumberPosition> NamePattern::match(std::string_view name) const {
   const Fits fits = fits_of(name);
   if (!fits[0][0]) return std::nullopt;
-  NumberPlace place;
+  NumberPosition position;
   for (std::size_t k = 0, i = 0; k < pieces_.size(); ++k) {
     const std::size_t length = length_at(fits, name, k, i).value_or(0);
-    if (pieces_[k].kind == Kind::number) place = {.at = i, .digits = length};
+    if (pieces_[k].kind == Kind::number) position = {.at = i, .digits = length};
     i += length;
   }
-  return place;
+  return position;
 }
 
 namespace {
@@ -145,9 +145,9 @@ struct Numbered {
 };
 
 /// Runs of digits in a name, without its extension.
-std::vector<NumberPlace> runs_of_digits(const std::string& name) {
+std::vector<NumberPosition> runs_of_digits(const std::string& name) {
   const std::string_view stem = std::string_view(name).substr(0, name.rfind('.'));
-  std::vector<NumberPlace> runs;
+  std::vector<NumberPosition> runs;
   for (std::size_t at = stem.find_first_of("0123456789"); at < stem.size();) {
     const std::size_t end = std::min(stem.find_first_not_of("0123456789", at), stem.size());
     runs.push_back({.at = at, .digits = end - at});
@@ -169,19 +169,19 @@ std::int64_t number_of(const FrameName& frame, const std::string& where) {
 }
 
 /// Takes the run of digits at this position from each name's end as its number; returns whether the numbers differ.
-bool take_run(std::vector<FrameName>& frames, const std::vector<std::vector<NumberPlace>>& runs,
+bool take_run(std::vector<FrameName>& frames, const std::vector<std::vector<NumberPosition>>& runs,
               std::size_t from_end) {
   bool differ = false;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const bool has_it = runs[i].size() >= from_end;
-    frames[i].number = has_it ? runs[i][runs[i].size() - from_end] : NumberPlace{};
+    frames[i].number = has_it ? runs[i][runs[i].size() - from_end] : NumberPosition{};
     differ = differ || digits_of(frames[i]) != digits_of(frames.front());
   }
   return differ;
 }
 
 void find_numbers(std::vector<FrameName>& frames) {
-  std::vector<std::vector<NumberPlace>> runs;
+  std::vector<std::vector<NumberPosition>> runs;
   std::size_t in_all = std::string::npos;
   for (const FrameName& frame : frames) {
     runs.push_back(runs_of_digits(frame.name));

@@ -12,11 +12,11 @@
 namespace thermal {
 
 /// Position of the frame number in a file's name; no digits if there is none.
-struct NumberPlace {
+struct NumberPosition {
   std::size_t at = 0;
   std::size_t digits = 0;
 
-  [[nodiscard]] bool operator==(const NumberPlace&) const = default;
+  [[nodiscard]] bool operator==(const NumberPosition&) const = default;
 };
 
 /// A pattern for names of files in one folder: * matches any letters, ? one, and one run of #, or one %d or %06d, the
@@ -33,7 +33,7 @@ class NamePattern {
 
   /// Empty for a name that does not match; if a number can start at several places, the first of them. Takes time of
   /// at most the product of both lengths.
-  [[nodiscard]] std::optional<NumberPlace> match(std::string_view name) const;
+  [[nodiscard]] std::optional<NumberPosition> match(std::string_view name) const;
 
  private:
   enum class Kind { letter, any_letter, any_letters, number };
@@ -64,7 +64,7 @@ class NamePattern {
 /// The name of a frame's file, and the position of the frame's number in it, if a pattern gives it.
 struct FrameName {
   std::string name;
-  NumberPlace number = {};  ///< no digits: unknown
+  NumberPosition number = {};  ///< no digits: unknown
 };
 
 /// Files of a clip in order. Frames are ordered by the number in their names and spaced by the greatest common step;

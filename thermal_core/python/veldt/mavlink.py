@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pymavlink.dialects.v20 import common
 
-from veldt._core import PlaceOnEarth
+from veldt._core import Georeference
 from .poses import checked_place, pose_of_rotation, rotation_of_attitude, rotation_of_quaternion
 from .rejections import Unusable, number_within
 
@@ -68,7 +68,7 @@ class Vehicle:
         ConfigError for invalid positions, such as a latitude beyond 89 deg.
         """
         self._start_m = np.asarray(start_m, float) if origin is None else np.zeros(3)
-        self._place = None if origin is None else PlaceOnEarth(origin)
+        self._place = None if origin is None else Georeference(origin)
         self._fixed = rotation_of_attitude(0, -down_rad, 0)
         self._system: int | None = None
         self._last: dict[str, _Motion] = {}
@@ -132,7 +132,7 @@ class Vehicle:
             number_within(f"{kind}.alt", message.alt * 1e-3, "m", *_HEIGHTS_M),
         )
         speed_m_s = [_speed(f"{kind}.{name}", getattr(message, name)) for name in ("vy", "vx", "vz")]
-        place = self._place or PlaceOnEarth(position)
+        place = self._place or Georeference(position)
         place_m = checked_place(f"{kind}: place", (self._start_m + place.point_at(position)).tolist())
         self._place = place
         return _Motion(arrived_s, place_m, speed_m_s * np.array([1, 1, -1]))

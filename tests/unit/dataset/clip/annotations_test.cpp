@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "support/catch.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace annotations_test {
 
@@ -162,7 +162,7 @@ TEST_CASE("The document is laid out like all others") {
 }
 
 TEST_CASE("Labels in a spool file are the same as in memory, and the file is removed") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Manifest used = manifest();
   ClipAnnotations in_file(used, {}, {}, folder / "spool");
   ClipAnnotations in_memory(used);

@@ -4,7 +4,7 @@
 #include "io/manifest_file.h"
 #include "support/assets.h"
 #include "support/catch.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 #include "support/tiny_clip.h"
 
 namespace frame_faults_test {
@@ -25,7 +25,7 @@ TEST_CASE("A clip without any good frame is reported with its first fault and th
 }
 
 TEST_CASE("A clip can be remade once any of its skipped frames can be converted") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path passes = tiny_clip::write(folder / "passes", "a");
   const ClipPasses clip = {.manifest = read_manifest(passes / "manifest.json", kAssets), .folder = passes};
   const MaterialLibrary materials = read_materials(kAssets);

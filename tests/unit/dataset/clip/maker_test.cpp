@@ -10,7 +10,7 @@
 #include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 #include "support/tiny_clip.h"
 
 namespace clip_maker_test {
@@ -21,7 +21,7 @@ namespace {
 
 /// A folder with the passes of clip "a", and a dataset to make it in.
 struct Workplace {
-  TemporaryFolder folder;
+  TestFolder folder;
   Path passes = tiny_clip::write(folder / "passes", "a");
   Path clip = folder / "clip";  ///< where task() makes it
 

@@ -4,7 +4,7 @@
 #include "dataset/layout.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace clip_record_test {
 
@@ -19,14 +19,14 @@ TEST_CASE("A record survives writing and reading") {
                              .frame_rate_hz = 7.5,
                              .pixels_sha256 = "abc",
                              .files = {{"ir8/000000.png", "def"}}};
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ClipRecord read = read_clip_record(folder.file("clip.json", to_text(to_json(record))));
   CHECK(to_json(read) == to_json(record));
   CHECK(read.seed == 4294967295);
 }
 
 TEST_CASE("An invalid record is a DataError with the file") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto fault_of = [&folder](const std::string& content) {
     const Path file = folder.file("clip.json", content);
     return message_of<DataError>([&] { (void)read_clip_record(file); }).substr(file.string().size());
@@ -52,7 +52,7 @@ TEST_CASE("An invalid record is a DataError with the file") {
 }
 
 TEST_CASE("A record names only files that a clip has, so that no other file is read, linked or replaced") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto fault_of = [&folder](const std::string& clip, const std::string& name) {
     ClipRecord record{.clip = clip, .season = "winter", .pixels_sha256 = "0", .files = {{name, "0"}}};
     const Path file = folder.file("clip.json", to_text(to_json(record)));

@@ -7,7 +7,7 @@
 #include "io/pass_reader.h"
 #include "support/assets.h"
 #include "support/catch.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 #include "support/tiny_clip.h"
 
 namespace clip_scenes_test {
@@ -18,7 +18,7 @@ namespace {
 
 /// A clip's passes, and scenes to be made of them.
 struct Clip {
-  TemporaryFolder folder;
+  TestFolder folder;
   Path passes = tiny_clip::write(folder / "passes", "a");
   Manifest manifest = read_manifest(passes / "manifest.json", kAssets);
   MaterialLibrary materials = read_materials(kAssets);

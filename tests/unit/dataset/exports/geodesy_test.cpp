@@ -50,7 +50,7 @@ std::array<LocalVector, 3> camera_axes(const CameraAttitude& at) {
 TEST_CASE("A place at the origin is the origin") {
   for (const GeoPosition& origin :
        {GeoPosition{-19, 23, 900}, GeoPosition{0, 180, -400}, GeoPosition{89, -70, 9000}}) {
-    const GeoPosition at = PlaceOnEarth(origin).position_of({0, 0, 0});
+    const GeoPosition at = Georeference(origin).position_of({0, 0, 0});
     CHECK_THAT(at.latitude_deg, WithinAbs(origin.latitude_deg, 1e-12));
     CHECK_THAT(at.longitude_deg, WithinAbs(origin.longitude_deg, 1e-12));
     CHECK_THAT(at.height_m, WithinAbs(origin.height_m, 1e-8));
@@ -60,7 +60,7 @@ TEST_CASE("A place at the origin is the origin") {
 TEST_CASE("Places are where the tangent plane has them, to a micrometre up to 100 km away") {
   for (const GeoPosition& origin :
        {GeoPosition{-19, 23, 900}, GeoPosition{0, 179.9, 0}, GeoPosition{88.9, -70, 0}}) {
-    const PlaceOnEarth place(origin);
+    const Georeference place(origin);
     for (const LocalVector& point_m :
          {LocalVector{500, -700, 61}, LocalVector{-1e5, 1e5, 1e4}, LocalVector{1e5, 0, -1e3}}) {
       const LocalVector there_m = earth_m(place.position_of(point_m));
@@ -85,7 +85,7 @@ TEST_CASE("Places are where the tangent plane has them, to a micrometre up to 10
 TEST_CASE("The point of a position is the one that has it, to a micrometre") {
   for (const GeoPosition& origin :
        {GeoPosition{-19, 23, 900}, GeoPosition{0, 179.9, 0}, GeoPosition{88.9, -70, 0}}) {
-    const PlaceOnEarth place(origin);
+    const Georeference place(origin);
     for (const LocalVector& point_m :
          {LocalVector{0, 0, 0}, LocalVector{500, -700, 61}, LocalVector{-1e5, 1e5, 1e4}})
       CHECK_THAT(distance_m(place.point_at(place.position_of(point_m)), point_m), WithinAbs(0, 1e-6));
@@ -93,7 +93,7 @@ TEST_CASE("The point of a position is the one that has it, to a micrometre") {
 }
 
 TEST_CASE("Directions turn with the place: north by the convergence of meridians") {
-  const PlaceOnEarth place({.latitude_deg = -19, .longitude_deg = 23, .height_m = 0});
+  const Georeference place({.latitude_deg = -19, .longitude_deg = 23, .height_m = 0});
   const GeoPosition east = place.position_of({10'000, 0, 0});
   const LocalVector north = place.direction_at(east, {0, 1, 0});
   // Meridians meet at the pole: north there is aside by d tan(latitude) / N, here 10 km tan(-19 deg) / 6380 km, and

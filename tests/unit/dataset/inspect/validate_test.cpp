@@ -7,7 +7,7 @@
 #include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 #include "support/tiny_clip.h"
 
 namespace validate_test {
@@ -28,7 +28,7 @@ struct Dataset {
   }
   [[nodiscard]] Faults faults() const { return validate_dataset(root).faults; }
 
-  TemporaryFolder folder;
+  TestFolder folder;
   Path root = folder / "dataset";
 };
 
@@ -108,7 +108,7 @@ TEST_CASE("Annotations of an unfinished run are named") {
 }
 
 TEST_CASE("A folder without a dataset cannot be checked") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   CHECK(message_of<IoError>([&] { (void)validate_dataset(folder.path()); }) ==
         "cannot read " + (folder / "dataset.json").string() + ": No such file or directory");
   const Path other = folder.file("dataset.json", "{}");

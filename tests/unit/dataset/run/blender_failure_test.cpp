@@ -3,7 +3,7 @@
 #include <csignal>
 
 #include "support/catch.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace blender_failure_test {
 
@@ -29,23 +29,23 @@ TEST_CASE("A reported failure is one line whatever it holds, and of text") {
 }
 
 TEST_CASE("The last words of a log are its last three lines that say something") {
-  const TemporaryFolder folder;
-  CHECK(last_words_in(folder / "none", 0).empty());
-  CHECK(last_words_in(folder.file("empty", "\n \n\r\n"), 0).empty());
-  CHECK(last_words_in(folder.file("one", "Error: no display"), 0) == "Error: no display");
+  const TestFolder folder;
+  CHECK(last_error_line_in(folder / "none", 0).empty());
+  CHECK(last_error_line_in(folder.file("empty", "\n \n\r\n"), 0).empty());
+  CHECK(last_error_line_in(folder.file("one", "Error: no display"), 0) == "Error: no display");
   const Path log = folder.file("log", "a\nb\n\nc\n  \nd\n\nBlender quit\n");
-  CHECK(last_words_in(log, 0) == "b / c / d");
-  CHECK(last_words_in(log, 4) == "c / d");  // "a\nb\n" is an earlier Blender's
-  CHECK(last_words_in(log, 1000).empty());
+  CHECK(last_error_line_in(log, 0) == "b / c / d");
+  CHECK(last_error_line_in(log, 4) == "c / d");  // "a\nb\n" is an earlier Blender's
+  CHECK(last_error_line_in(log, 1000).empty());
 }
 
 TEST_CASE("Last words are short and printable") {
-  const TemporaryFolder folder;
-  CHECK(last_words_in(folder.file("long", std::string(1000, 'x')), 0) == std::string(200, 'x'));
-  CHECK(last_words_in(folder.file("bytes", "a\x07\xff\n"), 0) == "a\\x07\\xff");
+  const TestFolder folder;
+  CHECK(last_error_line_in(folder.file("long", std::string(1000, 'x')), 0) == std::string(200, 'x'));
+  CHECK(last_error_line_in(folder.file("bytes", "a\x07\xff\n"), 0) == "a\\x07\\xff");
   const std::string far =
       "far away\n" + std::string(70000, '\n') + "near\n";  // only the last 65536 bytes are read
-  CHECK(last_words_in(folder.file("far", far), 0) == "near");
+  CHECK(last_error_line_in(folder.file("far", far), 0) == "near");
 }
 
 TEST_CASE("An unreported end says how Blender ended, and what it printed unless it was killed") {

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 #include "support/two_clips.h"
 
 namespace transaction_test {
@@ -22,7 +22,7 @@ ClipRecord make(const DatasetTransaction& transaction, const std::string& id, in
 }
 
 struct Place {
-  TemporaryFolder folder;
+  TestFolder folder;
   Layout layout{folder / "set"};
   Config config = two_clips::config();
 
@@ -209,7 +209,7 @@ TEST_CASE("A folder, or a clip of it, belongs to one run") {
 
 TEST_CASE("A link in place of the clips' folder is refused before anything is written") {
   const Place place;
-  const TemporaryFolder elsewhere;
+  const TestFolder elsewhere;
   make_folder(place.layout.root);
   std::filesystem::create_directory_symlink(elsewhere.path(), place.layout.clips());
   DatasetTransaction transaction = place.whole();

@@ -5,7 +5,7 @@
 
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace worker_pool_test {
 
@@ -16,7 +16,7 @@ namespace {
 using Hands = std::vector<std::vector<std::string>>;
 
 /// A Blender that reports its scene as built, and waits.
-std::vector<RenderJob::Task> idle_tasks(const TemporaryFolder& folder, const Hands& hands) {
+std::vector<RenderJob::Task> idle_tasks(const TestFolder& folder, const Hands& hands) {
   const Path program =
       folder.file("blender", "#!/bin/sh\necho '{\"event\": \"scene_built\"}' >&3; exec sleep 3600\n");
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
@@ -52,7 +52,7 @@ TEST_CASE("Blender processes share the threads, and each has at least one") {
 }
 
 TEST_CASE("An exception in one task stops all, and is the one that is thrown") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   std::atomic<int> stopped = 0;
   const ClipWork work = [&](const std::string& clip, RenderJob& job, const std::function<bool()>& cancelled) {
     if (clip == "b") throw DataError("of b");
@@ -70,7 +70,7 @@ TEST_CASE("An exception in one task stops all, and is the one that is thrown") {
 }
 
 TEST_CASE("All tasks stop on request") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ClipWork work = [](const std::string& clip, RenderJob& job, const std::function<bool()>& cancelled) {
     job.wait_for_frame(clip, 0, cancelled);
   };

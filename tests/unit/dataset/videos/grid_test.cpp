@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "dataset/videos/tag_places.h"
+#include "dataset/videos/tag_positions.h"
 #include "support/catch.h"
 
 namespace grid_test {
@@ -83,7 +83,7 @@ TEST_CASE("Columns make the whole as wide as screens are") {
 
 TEST_CASE("A tag is above its box where that is free") {
   TagPlacer placer({0, 0, 400, 300}, 2);
-  const std::vector<TagPlace> places =
+  const std::vector<TagPosition> places =
       placer.place({{.box = {100, 100, 30, 20}, .tag = {60, 14}, .track = 1}});
   CHECK(places[0].tag == PixelRect{98, 84, 60, 14});
   CHECK_FALSE(places[0].led);
@@ -94,7 +94,7 @@ TEST_CASE("Tags stay in the picture and cover neither targets nor each other") {
   std::vector<Tagged> tags;
   for (int k = 0; k < 6; ++k)
     tags.push_back({.box = {4 + 62 * k, k % 2 == 0 ? 1 : 30, 40, 24}, .tag = {58, 14}, .track = k});
-  const std::vector<TagPlace> places = placer.place(tags);
+  const std::vector<TagPosition> places = placer.place(tags);
   for (std::size_t k = 0; k < tags.size(); ++k) {
     CAPTURE(k);
     CHECK(overlap_px(places[k].tag, {0, 0, 400, 300}) == 58 * 14);

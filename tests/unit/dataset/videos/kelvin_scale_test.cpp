@@ -34,23 +34,23 @@ constexpr double kRounding = 1e-12;
 
 TEST_CASE("A threshold of a tone curve is the lower edge of the level above it") {
   const KelvinScale scale = scale_of_curve(rising(27000, 10), 0.01);
-  CHECK(scale.place_of(270.0).value() == 1.0 / 256);  // thresholds[0]: where level 1 begins
-  CHECK_THAT(scale.place_of(27000 * 0.01 + 254 * 0.1).value_or(0), WithinAbs(255.0 / 256, kRounding));
-  CHECK_THAT(scale.place_of(270.05).value(), WithinAbs(1.5 / 256, kRounding));  // half of level 1
+  CHECK(scale.position_of(270.0).value() == 1.0 / 256);  // thresholds[0]: where level 1 begins
+  CHECK_THAT(scale.position_of(27000 * 0.01 + 254 * 0.1).value_or(0), WithinAbs(255.0 / 256, kRounding));
+  CHECK_THAT(scale.position_of(270.05).value(), WithinAbs(1.5 / 256, kRounding));  // half of level 1
 }
 
 TEST_CASE("Levels without an end have no place") {
   const KelvinScale scale = scale_of_curve(rising(27000, 10), 0.01);
-  CHECK_FALSE(scale.place_of(269.99));
-  CHECK_FALSE(scale.place_of(295.5));
+  CHECK_FALSE(scale.position_of(269.99));
+  CHECK_FALSE(scale.position_of(295.5));
 }
 
 TEST_CASE("A threshold of 65535 is never reached") {
   std::array<std::uint16_t, kLevels - 1> thresholds = rising(30000, 1);
   std::fill(thresholds.begin() + 100, thresholds.end(), std::uint16_t{65535});
   const KelvinScale scale = scale_of_curve(thresholds, 0.01);
-  CHECK_THAT(scale.place_of(30099 * 0.01).value(), WithinAbs(100.0 / 256, kRounding));
-  CHECK_FALSE(scale.place_of(30100 * 0.01));
+  CHECK_THAT(scale.position_of(30099 * 0.01).value(), WithinAbs(100.0 / 256, kRounding));
+  CHECK_FALSE(scale.position_of(30100 * 0.01));
   CHECK_THAT(scale.known().high_k, WithinAbs(30099 * 0.01, kRounding));
 }
 
@@ -58,7 +58,7 @@ TEST_CASE("Levels below the least that a curve shows stand for no temperature") 
   std::array<std::uint16_t, kLevels - 1> thresholds = rising(26000, 10);
   std::fill(thresholds.begin(), thresholds.begin() + 12, std::uint16_t{1});
   const KelvinScale scale = scale_of_curve(thresholds, 0.01);
-  CHECK_FALSE(scale.place_of(200));
+  CHECK_FALSE(scale.position_of(200));
   CHECK_THAT(scale.known().low_k, WithinAbs(26120 * 0.01, kRounding));
   CHECK(labels_of(ticks_of(scale, 0.15)) == "265 270 275 280 285");
 }
@@ -67,8 +67,8 @@ TEST_CASE("Levels that a curve leaves out take no temperatures") {
   std::array<std::uint16_t, kLevels - 1> thresholds = rising(30000, 1);
   for (std::size_t k = 10; k < 20; ++k) thresholds[k] = 30010;
   const KelvinScale scale = scale_of_curve(thresholds, 0.01);
-  CHECK_THAT(scale.place_of(30010 * 0.01).value(), WithinAbs(20.0 / 256, kRounding));
-  CHECK_THAT(scale.place_of(300.095).value(),
+  CHECK_THAT(scale.position_of(30010 * 0.01).value(), WithinAbs(20.0 / 256, kRounding));
+  CHECK_THAT(scale.position_of(300.095).value(),
              WithinAbs(10.5 / 256, 1e-9));  // 0.005 K of 0.01 K: 1e-11 / 0.01
 }
 
@@ -80,10 +80,10 @@ TEST_CASE("A curve that shows black has no ticks") {
 
 TEST_CASE("A linear scale reaches from one end of the bar to the other") {
   const KelvinScale scale = linear_scale({270, 300});
-  CHECK(scale.place_of(270).value() == 0);
-  CHECK(scale.place_of(285).value() == 0.5);
-  CHECK(scale.place_of(300).value() == 1);
-  CHECK_FALSE(scale.place_of(300.01));
+  CHECK(scale.position_of(270).value() == 0);
+  CHECK(scale.position_of(285).value() == 0.5);
+  CHECK(scale.position_of(300).value() == 1);
+  CHECK_FALSE(scale.position_of(300.01));
 }
 
 TEST_CASE("Ticks are round temperatures, as many as fit") {
@@ -113,9 +113,9 @@ TEST_CASE("Ticks keep their distance and carry their places") {
   const std::vector<ScaleTick> ticks = ticks_of(scale, 0.07);
   REQUIRE(ticks.size() > 5);
   for (std::size_t k = 0; k < ticks.size(); ++k) {
-    CHECK(ticks[k].place == scale.place_of(ticks[k].temperature_k).value());
+    CHECK(ticks[k].position == scale.position_of(ticks[k].temperature_k).value());
     CHECK(std::stod(ticks[k].label) == ticks[k].temperature_k);
-    if (k > 0) CHECK(ticks[k].place - ticks[k - 1].place >= 0.07);
+    if (k > 0) CHECK(ticks[k].position - ticks[k - 1].position >= 0.07);
   }
 }
 

@@ -9,7 +9,7 @@
 #include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace ground_maps_file_test {
 
@@ -44,13 +44,13 @@ thermal::BakedGround ground() {
   return ground;
 }
 
-GroundMaps read(const TemporaryFolder& folder) {
+GroundMaps read(const TestFolder& folder) {
   return thermal::read_ground_maps(folder.path(), ground(), kAssets);
 }
 
 /// What is wrong with maps that are written after a change, without the folder.
 std::string fault_of(const std::function<void(GroundMaps&)>& change) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   GroundMaps changed = maps();
   change(changed);
   thermal::write_ground_maps(changed, folder.path(), folder.path());
@@ -59,7 +59,7 @@ std::string fault_of(const std::function<void(GroundMaps&)>& change) {
 
 /// The same after a change of the header.
 std::string fault_of_header(const std::function<void(Json&)>& change) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   thermal::write_ground_maps(maps(), folder.path(), folder.path());
   Json header = thermal::read_json(folder / "ground.json");
   change(header);
@@ -70,7 +70,7 @@ std::string fault_of_header(const std::function<void(Json&)>& change) {
 }  // namespace
 
 TEST_CASE("Maps of the ground are read as they were written") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   CHECK(!thermal::has_ground_maps(folder.path()));
   thermal::write_ground_maps(maps(), folder.path(), folder.path());
   CHECK(thermal::has_ground_maps(folder.path()));
@@ -81,7 +81,7 @@ TEST_CASE("Maps of the ground are read as they were written") {
 }
 
 TEST_CASE("They replace earlier ones, and may have no days") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   thermal::write_ground_maps(maps(), folder.path(), folder.path());
   GroundMaps dark = maps();
   dark.sunlit.clear();
@@ -125,7 +125,7 @@ TEST_CASE("Headers that do not fit are refused") {
 }
 
 TEST_CASE("A binary file that is cut is refused") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   thermal::write_ground_maps(maps(), folder.path(), folder.path());
   std::filesystem::resize_file(folder / "ground.bin", 703);
   CHECK(message_of<DataError>([&] { (void)read(folder); }) ==

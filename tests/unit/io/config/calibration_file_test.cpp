@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace calibration_file_test {
 
@@ -366,7 +366,7 @@ TEST_CASE("What is larger or deeper than a calibration is not read") {
 }
 
 TEST_CASE("Only a file is read") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   CHECK(message_of<IoError>([] { (void)read_calibration("/dev/zero"); }) ==
         "cannot read /dev/zero: it is a pipe or a device; expected a file");
   CHECK(message_of<IoError>([&] { (void)read_calibration(folder.path()); }) ==

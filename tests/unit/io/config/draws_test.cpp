@@ -5,7 +5,7 @@
 #include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace draws_test {
 
@@ -242,7 +242,7 @@ TEST_CASE("Distributions that cannot be drawn are refused") {
 }
 
 TEST_CASE("Flights draw a row of a file of views") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file =
       folder.file("views.csv", "# real flights\nlook_angle_deg, altitude_m,weight\r\n30,60,0\n45,90,1\n");
   Json document = night();
@@ -260,7 +260,7 @@ TEST_CASE("Flights draw a row of a file of views") {
 }
 
 TEST_CASE("Faults of a file of views name its lines") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto fault_of = [&](const std::string& text) {
     const Path file = folder.file("views.csv", text);
     Json document = night();

@@ -5,7 +5,7 @@
 #include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace lens_config_test {
 
@@ -143,7 +143,7 @@ struct Calibrated {
     document["camera"]["calibration"] = file;
   }
 
-  TemporaryFolder folder;
+  TestFolder folder;
   std::string file;
   Json document;
 };

@@ -6,7 +6,7 @@
 #include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace material_files_test {
 
@@ -23,7 +23,7 @@ struct Home {
     file = folder.file("assets/materials/clay.json", content);
   }
   [[nodiscard]] Assets assets() const { return Assets(folder.path()); }
-  TemporaryFolder folder;
+  TestFolder folder;
   Path file;
 };
 

@@ -6,7 +6,7 @@
 #include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace photo_view_test {
 
@@ -196,7 +196,7 @@ TEST_CASE("Junk in tags counts as missing") {
 }
 
 TEST_CASE("Views of photos are read as they were written") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file =
       folder.file("views.csv", "# of photos\n" + views_text({{{60.1, 45}, 2}, {{120, 89.9}, 1}}));
   const std::vector<View> views = read_views(file, kAssets.schema("config")["$defs"]["flight"]["properties"]);

@@ -18,7 +18,7 @@
 #include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace sensor_config_test {
 
@@ -271,7 +271,7 @@ TEST_CASE("A preset builds on another, whose values apply wherever it gives none
 }
 
 TEST_CASE("A preset that builds on itself is an error, and so is one that builds on none that exists") {
-  const TemporaryFolder home;
+  const TestFolder home;
   std::filesystem::create_directories(home / "assets/sensors");
   const auto fault_in = [&] {
     return message_of<ConfigError>([&] {
@@ -324,7 +324,7 @@ TEST_CASE("An unknown preset is an error with the nearest name") {
 }
 
 TEST_CASE("Faults of a preset are reported with its file") {
-  const TemporaryFolder home;
+  const TestFolder home;
   std::filesystem::create_directories(home / "assets/sensors");
   const auto fault_of = [&](const std::string& preset) {
     const Path file = home.file("assets/sensors/airsim_w.json", preset);

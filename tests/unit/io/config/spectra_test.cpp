@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace spectrum_files_test {
 
@@ -13,7 +13,7 @@ namespace {
 
 /// The fault of a response file with this content; "FILE" stands for its name.
 std::string fault_in(const std::string& content) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("response.csv", content);
   std::string message = message_of<ConfigError>([&] { (void)read_response(file); });
   const std::size_t at = message.find(file.string());
@@ -23,7 +23,7 @@ std::string fault_in(const std::string& content) {
 }  // namespace
 
 TEST_CASE("A response is read past comments, empty lines and other line endings") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const SpectralResponse response = read_response(
       folder.file("r.csv", "# a camera\n\nwavelength_um,response\r\n7.5,0.25\r\n# kink\n10,1\n13.5,0.5"));
   REQUIRE(response.samples().size() == 3);
@@ -33,7 +33,7 @@ TEST_CASE("A response is read past comments, empty lines and other line endings"
 }
 
 TEST_CASE("A response saved by Excel, with a byte-order mark and CRLF, reads as one without") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const SpectralResponse plain = read_response(folder.file("a.csv", "wavelength_um,response\n8,1\n14,0.5\n"));
   CHECK(read_response(folder.file("b.csv", "\xEF\xBB\xBFwavelength_um,response\r\n8,1\r\n14,0.5\r\n")) ==
         plain);

@@ -7,7 +7,7 @@
 #include "support/catch.h"
 #include "support/mattes.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace cryptomatte_test {
 
@@ -152,7 +152,7 @@ TEST_CASE("A cryptomatte may come without names") {
 }
 
 TEST_CASE("Names may be in a side-car file below the folder, and those of the header come first") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   std::filesystem::create_directory(folder.path() / "names");
   (void)folder.file("names/f.json", R"({"cow": "2b4855d1"})");
   ExrHeader header = header_of({kName});
@@ -166,7 +166,7 @@ TEST_CASE("Names may be in a side-car file below the folder, and those of the he
 }
 
 TEST_CASE("A side-car file that cannot be read, or is elsewhere, leaves a cryptomatte without names") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string place = folder.path().string();
   (void)folder.file("list.json", R"(["cow"])");
   std::filesystem::resize_file(folder.file("long.json", ""), kMostSidecarBytes + 1);

@@ -19,7 +19,7 @@
 #include "support/catch.h"
 #include "support/exr_forms.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace exr_faults_test {
 
@@ -40,7 +40,7 @@ std::string fault_of(const Path& file, const PassNeeds& needs = {}) {
 }  // namespace
 
 TEST_CASE("A file whose writer stopped early is an error if a needed part lacks pixels") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder / "f.exr";
   exr_forms::Part objects = part_of("objects", {{"IndexOB.X", floats({1, 2, 3, 4})}});
   exr_forms::Part depth = part_of("depth", {{"Z", floats({1, 2, 3, 4})}});
@@ -53,7 +53,7 @@ TEST_CASE("A file whose writer stopped early is an error if a needed part lacks 
 }
 
 TEST_CASE("Channels with fewer samples than pixels are refused if they are needed") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder / "f.exr";
   Imf::Header header(2, 2);
   header.channels().insert("IndexOB.X", Imf::Channel(Imf::FLOAT));
@@ -73,7 +73,7 @@ TEST_CASE("Channels with fewer samples than pixels are refused if they are neede
 }
 
 TEST_CASE("Reading does not wait for pipes and devices") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path pipe = folder / "pipe.exr";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   CHECK(fault_of(pipe) == "cannot read " + pipe.string() + ": it is not a regular file");
@@ -81,7 +81,7 @@ TEST_CASE("Reading does not wait for pipes and devices") {
 }
 
 TEST_CASE("A file that claims more than it can hold costs no memory") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder / "f.exr";
   exr_forms::write(file, {part_of("", {{"IndexOB.X", floats({1, 2, 3, 4})}})});
   std::ifstream in(file, std::ios::binary);
@@ -103,7 +103,7 @@ TEST_CASE("A file that claims more than it can hold costs no memory") {
 }
 
 TEST_CASE("A file that changes while it is read is reported") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder / "f.exr";
   exr_forms::write(file, {part_of("a", {{"IndexOB.X", floats({1, 2, 3, 4})}}),
                           part_of("b", {{"Z", floats({1, 2, 3, 4})}})});
@@ -117,7 +117,7 @@ TEST_CASE("A file that changes while it is read is reported") {
 }
 
 TEST_CASE("Other readers get the string attributes of all parts, and compressions by part") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder / "f.exr";
   exr_forms::Part a = part_of("a", {{"S.IndexOB.X", floats({1, 2, 3, 4})}});
   exr_forms::Part b = part_of("b", {{"S.CryptoObject00.R", floats({1, 2, 3, 4})}});
@@ -142,7 +142,7 @@ TEST_CASE("Other readers get the string attributes of all parts, and compression
 }
 
 TEST_CASE("Channels keep all bits of floats, from several parts and when requested twice") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder / "f.exr";
   // Hashes of a cryptomatte, and a signalling NaN.
   const std::vector<std::uint32_t> bits = {0xA8FCE865, 0x7FA00001, 0x00000001, 0x80000000};
@@ -194,7 +194,7 @@ class MemoryLimit {
 TEST_CASE("Running out of memory is no fault of a file: for its plane, the library's chunk, or ours") {
   constexpr int kSide = 3000;  // 36 MB in one chunk: more than the allocator keeps
   constexpr std::size_t kMega = 1'000'000;
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder / "f.exr";
   {
     Imf::Header header(kSide, kSide);

@@ -7,7 +7,7 @@
 #include "support/catch.h"
 #include "support/exr_forms.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace exr_layers_test {
 
@@ -61,7 +61,7 @@ struct Exr {
     return message.starts_with(name) ? message.substr(name.size()) : message;
   }
 
-  TemporaryFolder folder;
+  TestFolder folder;
   Path file = folder / "f.exr";
 };
 
@@ -271,7 +271,7 @@ TEST_CASE("An index that was written as a picture is named by its red") {
 
 TEST_CASE("Pictures that no pinhole camera with the manifest's pixels makes are refused") {
   exr_forms::Part part = {.display = window(0, 0, 1, 1), .channels = {{"IndexOB.X", floats({1})}}};
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder / "f.exr";
   const auto fault_of = [&](const ExrLayout& layout) {
     exr_forms::write(file, {part});

@@ -12,7 +12,7 @@
 #include "support/catch.h"
 #include "support/exr_forms.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace exr_matrix_test {
 
@@ -92,7 +92,7 @@ struct Frame {
   }
 
   void check() const {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     exr_forms::write(folder / "f.exr", {part});
     const ExrLayout layout = {.width_px = size.width_px, .height_px = size.height_px};
     const Passes passes = read_passes(folder / "f.exr", layout, {.depth = true, .normals = true});
@@ -160,7 +160,7 @@ TEST_CASE("Pictures may be of 3840 x 3072 pixels") {
   constexpr Size kLarge = {3840, 3072};
   std::vector<float> bands;
   for (std::size_t i = 0; i < kLarge.pixels(); ++i) bands.push_back(static_cast<float>(i / 1000));
-  const TemporaryFolder folder;
+  const TestFolder folder;
   exr_forms::write(folder / "f.exr", {{.display = window(0, 0, kLarge.width_px, kLarge.height_px),
                                        .channels = {{"IndexOB.X", floats(bands)}},
                                        .compression = Imf::RLE_COMPRESSION}});
@@ -181,7 +181,7 @@ TEST_CASE("Any of any number of channels is read, whatever the others are") {
   const auto count = GENERATE(1, 2, 3, 4, 5);
   const auto type = GENERATE(Imf::UINT, Imf::HALF, Imf::FLOAT);
   const auto others = GENERATE(Imf::UINT, Imf::HALF, Imf::FLOAT);
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (int wanted = 0; wanted < count; ++wanted) {
     CAPTURE(count, wanted, type, others);
     exr_forms::Part part = {.display = window(0, 0, kSize.width_px, kSize.height_px)};
@@ -199,7 +199,7 @@ namespace {
 
 /// What is wrong with a file of one index plane of two pixels.
 std::string fault_of(const exr_forms::Stored& plane, Imf::Compression compression = Imf::ZIP_COMPRESSION) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder / "f.exr";
   exr_forms::write(
       file,
@@ -243,7 +243,7 @@ TEST_CASE("Index planes with a lossy compression are refused, whatever their pix
 }
 
 TEST_CASE("Depth and normals may have a lossy compression") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder / "f.exr";
   const Imath::Box2i box = window(0, 0, 40, 40);
   const std::vector<float> flat(1600, 0.5F);

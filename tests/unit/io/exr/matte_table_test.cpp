@@ -14,7 +14,7 @@
 #include "support/catch.h"
 #include "support/mattes.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace matte_table_test {
 
@@ -59,7 +59,7 @@ struct Exr {
     return message.starts_with(name) ? message.substr(name.size()) : fmt::format("not named: {}", message);
   }
 
-  TemporaryFolder folder;
+  TestFolder folder;
   Path file = folder / "000000.exr";
 };
 

@@ -13,7 +13,7 @@
 #include "support/catch.h"
 #include "support/exr.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace exr_passes_test {
 
@@ -56,7 +56,7 @@ struct Exr {
     return read_passes(file, {.layer = layer, .actor_layer = "", .width_px = 3, .height_px = 2});
   }
 
-  TemporaryFolder folder;
+  TestFolder folder;
   Path file = folder / "000000.exr";
 };
 
@@ -266,7 +266,7 @@ TEST_CASE("A file whose size differs from the manifest's is an error") {
 }
 
 TEST_CASE("A missing file, or one that is not EXR, cannot be read") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path missing = folder / "missing.exr";
   CHECK(message_of<IoError>([&] {
           (void)read_passes(missing, {.layer = "", .actor_layer = "", .width_px = 3, .height_px = 2});
@@ -349,7 +349,7 @@ TEST_CASE("A buffer keeps nothing of a frame that could not be read") {
 
 TEST_CASE("A smaller or larger frame than the last is read completely into its buffer") {
   const Exr small(all_planes(0));
-  TemporaryFolder folder;
+  TestFolder folder;
   const Path large = folder / "large.exr";
   write_exr(large, 40, 30, {{"Scene.IndexOB.X", std::vector<float>(1200, 9)}});
   PassBuffer buffer;
@@ -360,7 +360,7 @@ TEST_CASE("A smaller or larger frame than the last is read completely into its b
 }
 
 TEST_CASE("Written passes are read back with the same bits") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Passes passes;
   passes.object_index = Plane<std::uint16_t>(3, 2, 32767);
   passes.material_index = Plane<std::uint16_t>(3, 2, 12);
@@ -386,7 +386,7 @@ TEST_CASE("Written passes are read back with the same bits") {
 }
 
 TEST_CASE("What water mirrors is written in a layer of its own, and read where it is needed") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Passes passes;
   passes.object_index = Plane<std::uint16_t>(3, 2, 4);
   write_passes(folder / "dry.exr", passes, "Scene", "", ExrPacking::run_lengths);
@@ -414,7 +414,7 @@ TEST_CASE("What water mirrors is written in a layer of its own, and read where i
 }
 
 TEST_CASE("Passes that are sampled where it matters are read as they were written") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Passes passes;
   passes.object_index = Plane<std::uint16_t>(3, 2, 4);
   passes.material_index = Plane<std::uint16_t>(3, 2, 9);
@@ -454,7 +454,7 @@ TEST_CASE("Passes that are sampled where it matters are read as they were writte
 }
 
 TEST_CASE("Passes that cannot be written leave no file") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Passes passes;
   passes.object_index = Plane<std::uint16_t>(3, 2);
   const Path file = folder / "missing" / "000000.exr";
@@ -463,7 +463,7 @@ TEST_CASE("Passes that cannot be written leave no file") {
 }
 
 TEST_CASE("Passes are written whole, or reported: whichever bytes do not fit") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Passes passes;
   passes.depth_m = Plane<float>(3, 200, 61.25F);
   const Path file = folder / "000000.exr";
@@ -480,7 +480,7 @@ TEST_CASE("Passes are written whole, or reported: whichever bytes do not fit") {
 }
 
 TEST_CASE("What a killed run left under the temporary name is replaced") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Passes passes;
   passes.depth_m = Plane<float>(3, 2, 61.25F);
   (void)folder.file("part_000000.exr", "half");

@@ -6,7 +6,7 @@
 #include "support/catch.h"
 #include "support/exr.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace exr_scan_test {
 
@@ -57,7 +57,7 @@ std::string file_of(std::int32_t version, const std::string& headers, std::size_
 }
 
 std::string fault_in(const std::string& bytes, const ExrLimits& limits = {}) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("f.exr", bytes);
   return message_of<DataError>([&] { check_exr_headers(file, limits); });
 }

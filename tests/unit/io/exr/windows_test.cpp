@@ -9,7 +9,7 @@
 #include "support/catch.h"
 #include "support/exr_forms.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace exr_windows_test {
 
@@ -92,7 +92,7 @@ TEST_CASE("Pixels outside the data window are sky, and those outside the display
   const auto tiled = GENERATE(false, true);
   const auto compression = GENERATE(Imf::NO_COMPRESSION, Imf::ZIP_COMPRESSION);
   const Box2i display = window(left, top, 23, 41);
-  const TemporaryFolder folder;
+  const TestFolder folder;
   PassBuffer buffer;
   for (const Box2i& shape : kData) {
     const Box2i data = {shape.min + display.min, shape.max + display.min};
@@ -107,7 +107,7 @@ TEST_CASE("Pixels outside the data window are sky, and those outside the display
 
 TEST_CASE("Tiles may be larger than the picture and its data") {
   const Box2i display = window(0, 0, 5, 4);
-  const TemporaryFolder folder;
+  const TestFolder folder;
   PassBuffer buffer;
   for (const Box2i& data : {display, window(-3, -2, 9, 9), window(2, 3, 9, 9)}) {
     exr_forms::Part part = part_of(display, data);
@@ -118,7 +118,7 @@ TEST_CASE("Tiles may be larger than the picture and its data") {
 }
 
 TEST_CASE("Every part has its own data window") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Box2i display = window(10, 10, 6, 5);
   const Box2i depth = window(12, 9, 9, 3);
   exr_forms::Part objects = part_of(display, window(11, 11, 2, 2));
@@ -137,7 +137,7 @@ TEST_CASE("Every part has its own data window") {
 }
 
 TEST_CASE("Channels for other readers have the requested value outside the data window") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Box2i display = window(0, 0, 3, 2);
   exr_forms::write(folder / "f.exr", {part_of(display, window(1, 1, 1, 1))});
   const ExrHeader header = read_exr_header(folder / "f.exr");
@@ -150,7 +150,7 @@ TEST_CASE("Channels for other readers have the requested value outside the data 
 }
 
 TEST_CASE("Sizes are those of the display window, and checked before pixels are read") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder / "f.exr";
   exr_forms::write(file, {part_of(window(0, 0, 30, 20), window(0, 0, 3, 2))});
   const auto fault_of = [&](const ExrLayout& layout) {

@@ -5,7 +5,7 @@
 #include "io/image/png.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace grey_picture_test {
 
@@ -24,7 +24,7 @@ Plane<T> ramp(int step) {
 }  // namespace
 
 TEST_CASE("Grey PNGs of 8 and of 16 bits") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   write_file(folder.path() / "a.png", encode_png(ramp<std::uint8_t>(1)));
   write_file(folder.path() / "b.PNG", encode_png(ramp<std::uint16_t>(160)));
   const GreyPicture eight = read_grey_picture(folder.path() / "a.png");
@@ -42,7 +42,7 @@ TEST_CASE("Names of pictures") {
 }
 
 TEST_CASE("Pictures that cannot be read") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.path() / "a.png";
   CHECK_THAT(message_of<IoError>([&] { (void)read_grey_picture(file); }),
              StartsWith("cannot read " + file.string()));
@@ -51,7 +51,7 @@ TEST_CASE("Pictures that cannot be read") {
 }
 
 TEST_CASE("Other formats are refused by their first bytes, whatever their name, before a decoder sees them") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string pgm = "P5\n2 2\n255\nabcd";  // a whole picture, which OpenImageIO could read
   for (const char* name : {"a.jpg", "a.tif"}) {
     const Path file = folder.file(name, pgm);
@@ -61,7 +61,7 @@ TEST_CASE("Other formats are refused by their first bytes, whatever their name, 
           file.string() + ": it begins as no PNG, JPEG or TIFF does");
   }
   // A name of another format's does not matter either.
-  const TemporaryFolder other;
+  const TestFolder other;
   write_file(other.path() / "a.tif", encode_png(ramp<std::uint8_t>(1)));
   CHECK(read_grey_picture(other.path() / "a.tif").levels.at(7, 1) == 27);
   CHECK_THAT(message_of<IoError>([&] { (void)read_picture_size(other.path()); }),

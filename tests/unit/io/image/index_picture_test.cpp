@@ -10,7 +10,7 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/png_bytes.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace index_picture_test {
 
@@ -68,7 +68,7 @@ struct Png {
     return message.starts_with(name) ? message.substr(name.size()) : "not named: " + message;
   }
 
-  TemporaryFolder folder;
+  TestFolder folder;
   Path file;
 };
 
@@ -373,7 +373,7 @@ TEST_CASE("The output of Veldt's own encoder is read") {
   Plane<std::uint16_t> picture(257, 64);
   for (std::size_t i = 0; i < picture.size(); ++i)
     picture.pixels()[i] = static_cast<std::uint16_t>(i * 2 % 32768);
-  const TemporaryFolder folder;
+  const TestFolder folder;
   write_file(folder / "own.png", encode_png(picture));
   CHECK(IndexPictures(numbered(257, 64)).read(folder / "own.png", {}).object_index == picture);
 }
@@ -459,7 +459,7 @@ TEST_CASE("Ancillary chunks are skipped, unknown critical ones are an error") {
 }
 
 TEST_CASE("A file that cannot be opened is an error that names it") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto fault_of = [](const Path& file) {
     return message_of<IoError>([&] { (void)survey_picture(file); });
   };

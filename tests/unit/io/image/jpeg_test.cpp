@@ -8,7 +8,7 @@
 #include "io/image/tiff.h"
 #include "io/system/files.h"
 #include "support/catch.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace jpeg_test {
 
@@ -28,17 +28,17 @@ Plane<Value> ramp(Value low, Value high) {
 }
 
 /// Levels of the JPEG of a file in the folder.
-Plane<std::uint16_t> shown(const TemporaryFolder& folder, const char* name) {
+Plane<std::uint16_t> shown(const TestFolder& folder, const char* name) {
   write_file_atomically(folder.path() / "shown.jpg", as_jpeg(folder.path() / name, 960));
   return read_grey_picture(folder.path() / "shown.jpg").levels;
 }
 
-Plane<std::uint16_t> shown_tiff(const TemporaryFolder& folder, const auto& picture) {
+Plane<std::uint16_t> shown_tiff(const TestFolder& folder, const auto& picture) {
   write_file_atomically(folder.path() / "picture.tif", encode_tiff(picture, {}));
   return shown(folder, "picture.tif");
 }
 
-Plane<std::uint16_t> shown_png(const TemporaryFolder& folder, const auto& picture) {
+Plane<std::uint16_t> shown_png(const TestFolder& folder, const auto& picture) {
   write_file(folder.path() / "picture.png", encode_png(picture));
   return shown(folder, "picture.png");
 }
@@ -51,12 +51,12 @@ void check_is_ramp(const Plane<std::uint16_t>& levels, double first, double last
 }  // namespace
 
 TEST_CASE("Grey levels of 8 bits are shown as they are") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   check_is_ramp(shown_png(folder, ramp<std::uint8_t>(40, 200)), 40, 200);
 }
 
 TEST_CASE("A picture in the place of another is shown in its own size") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   (void)shown_tiff(folder, Plane<float>(8, 6, 300.0F));
   const Plane<std::uint16_t> levels = shown_tiff(folder, ramp(281.0F, 294.0F));
   CHECK(levels.width_px() == 128);
@@ -64,14 +64,14 @@ TEST_CASE("A picture in the place of another is shown in its own size") {
 }
 
 TEST_CASE("Temperatures and counts fill the scale, whatever part of theirs they take") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   check_is_ramp(shown_tiff(folder, ramp<float>(281, 294)), 0, 255);
   check_is_ramp(shown_tiff(folder, ramp<std::uint16_t>(28100, 29400)), 0, 255);
   check_is_ramp(shown_png(folder, ramp<std::uint16_t>(28100, 29400)), 0, 255);
 }
 
 TEST_CASE("A few hot pixels, and those that are no number, leave the others their contrast") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Plane<float> kelvin = ramp<float>(281, 294);
   kelvin.at(5, 3) = 900;
   kelvin.at(70, 4) = std::nanf("");

@@ -15,7 +15,7 @@
 #include "io/image/tiff.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 #include "support/tiff_bytes.h"
 
 namespace kelvin_picture_test {
@@ -87,7 +87,7 @@ std::string with_long_rows(std::string tiff) {
 }  // namespace
 
 TEST_CASE("Kelvin come back bit for bit: floats, counts with a scale in the tags, counts with one given") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Plane<std::uint16_t> counts = all_counts();
   const Plane<float> kelvin = kelvin_of(counts);
   write_file_atomically(folder.path() / "a.tif", encode_tiff(kelvin, {}));
@@ -99,7 +99,7 @@ TEST_CASE("Kelvin come back bit for bit: floats, counts with a scale in the tags
 }
 
 TEST_CASE("A given scale replaces the one of the tags, and floats have none") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Plane<std::uint16_t> counts(8, 8, 7500);
   write_file_atomically(folder.path() / "a.tif", encode_tiff(counts, {.gdal_metadata = kScaled}));
   CHECK(read_kelvin_picture(folder.path() / "a.tif", {.kelvin_per_count = 0.04}).at(3, 3) == 300.0F);
@@ -108,7 +108,7 @@ TEST_CASE("A given scale replaces the one of the tags, and floats have none") {
 }
 
 TEST_CASE("Pictures without temperatures") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.path() / "a.tif";
   const auto fault_of = [&](const std::string& bytes) {
     write_file_atomically(file, bytes);
@@ -126,7 +126,7 @@ TEST_CASE("Pictures without temperatures") {
 }
 
 TEST_CASE("Degrees Celsius: floats, and counts of tenths, by an option or by the unit of the tags") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto read = [&folder](const TiffPage& page, const StoredScale& scale) {
     return read_kelvin_picture(folder.file("a.tif", TiffBytes().add(page).bytes()), scale);
   };
@@ -155,7 +155,7 @@ TEST_CASE("Degrees Celsius: floats, and counts of tenths, by an option or by the
 TEST_CASE("Temperatures that no scene has are refused with the value and how many there are") {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   constexpr float kMost = std::numeric_limits<float>::max();
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.path() / "a.tif";
   const auto fault_of = [&](const TiffPage& page, const StoredScale& scale = {}) {
     write_file_atomically(file, TiffBytes().add(page).bytes());
@@ -183,7 +183,7 @@ TEST_CASE("Temperatures that no scene has are refused with the value and how man
 }
 
 TEST_CASE("The median is one of a drone's scene, and the message says what may be wrong") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.path() / "a.tif";
   const auto fault_of = [&](const std::string& tiff, const StoredScale& scale = {}) {
     write_file_atomically(file, tiff);
@@ -208,7 +208,7 @@ TEST_CASE("The median is one of a drone's scene, and the message says what may b
 }
 
 TEST_CASE("Pixels without a value by GDAL's tag, a mask or pages are refused, smaller copies ignored") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.path() / "a.tif";
   const auto fault_of = [&](const TiffBytes& tiff) {
     write_file_atomically(file, tiff.bytes());
@@ -241,7 +241,7 @@ TEST_CASE("Pixels without a value by GDAL's tag, a mask or pages are refused, sm
 }
 
 TEST_CASE("Temperatures whose largest is black are refused") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   TiffPage page = tiff_page<std::uint16_t>(2, 1, {30000, 30001});
   page.photometric = 0;
   const Path file = folder.file("a.tif", TiffBytes().add(page).bytes());
@@ -251,7 +251,7 @@ TEST_CASE("Temperatures whose largest is black are refused") {
 }
 
 TEST_CASE("A file that claims more than it can hold takes no memory for it") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string tiff = encode_tiff(Plane<float>(8, 8, 300.0F), {});
   const auto [name, content, claim] = GENERATE_REF(table<const char*, std::string, const char*>(
       {{"wide.tif", with_large_claim(tiff), "size = 15000 x 15000 px of 4 bytes each"},
@@ -266,7 +266,7 @@ TEST_CASE("A file that claims more than it can hold takes no memory for it") {
 }
 
 TEST_CASE("A strip may have fewer rows than it says, as many writers have it") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Plane<float> kelvin(8, 8, 300.0F);
   std::string tiff = encode_tiff(kelvin, {});
   tiff.replace(value_of_tag(tiff, kRowsPerStrip), 2, "\xff\xff");
@@ -274,7 +274,7 @@ TEST_CASE("A strip may have fewer rows than it says, as many writers have it") {
 }
 
 TEST_CASE("A TIFF whose pixels end early is damaged, however it is read") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto [name, content] = GENERATE(table<const char*, std::string>(
       {{"floats.tif", with_long_rows(encode_tiff(Plane<float>(8, 8, 300.0F), {}))},
        {"counts.tif", with_long_rows(encode_tiff(Plane<std::uint16_t>(8, 8, 7500), {}))}}));
@@ -286,7 +286,7 @@ TEST_CASE("A TIFF whose pixels end early is damaged, however it is read") {
 }
 
 TEST_CASE("Counts that end early are no grey picture") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("a.tif", with_long_rows(encode_tiff(Plane<std::uint16_t>(8, 8, 7500), {})));
   CHECK_THAT(message_of<DataError>([&] { (void)read_grey_picture(file); }),
              StartsWith(file.string() + ": damaged: "));

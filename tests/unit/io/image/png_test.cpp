@@ -12,7 +12,7 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/png_bytes.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace png_test {
 
@@ -61,24 +61,24 @@ Plane<T> extremes(int width_px, int height_px) {
 }
 
 template <typename T>
-Path written(const TemporaryFolder& folder, const Plane<T>& picture) {
+Path written(const TestFolder& folder, const Plane<T>& picture) {
   Path file = folder / "picture.png";
   std::filesystem::remove(file);
   write_file(file, encode_png(picture));
   return file;
 }
 
-Plane<std::uint8_t> read_back(const TemporaryFolder& folder, const Plane<std::uint8_t>& picture) {
+Plane<std::uint8_t> read_back(const TestFolder& folder, const Plane<std::uint8_t>& picture) {
   return read_png8(written(folder, picture));
 }
 
-Plane<std::uint16_t> read_back(const TemporaryFolder& folder, const Plane<std::uint16_t>& picture) {
+Plane<std::uint16_t> read_back(const TestFolder& folder, const Plane<std::uint16_t>& picture) {
   return read_png16(written(folder, picture));
 }
 
 /// The message of read_png8() for these bytes, without the file's name.
 std::string fault8(const std::string& bytes) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("picture.png", bytes);
   const std::string name = fmt::format("{}: ", file.string());
   const std::string message = message_of<DataError>([&] { (void)read_png8(file); });
@@ -98,7 +98,7 @@ std::string fault8(int colour_type, int bit_depth, const std::string& samples) {
 }  // namespace
 
 TEMPLATE_TEST_CASE("Pictures survive a PNG bit for bit", "", std::uint8_t, std::uint16_t) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (const auto& [width_px, height_px] :
        {std::pair(257, 259), {1, 1}, {1, 300}, {300, 1}, {2, 2}, {3, 5}, {4096, 1}, {1, 4096}, {37, 11}}) {
     CAPTURE(width_px, height_px);
@@ -156,7 +156,7 @@ TEST_CASE("The same picture gives the same bytes at any address in memory") {
 }
 
 TEST_CASE("A picture of another kind is an error that says so") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path shallow = written(folder, Plane<std::uint8_t>(2, 2, 9));
   CHECK(message_of<DataError>([&] { (void)read_png16(shallow); }) ==
         fmt::format("{}: pixels = grey of 8 bits; expected grey of 16 bits", shallow.string()));
@@ -180,14 +180,14 @@ TEST_CASE("A picture that claims more than its file can hold is an error") {
 TEST_CASE("A file that is not a picture is an error, and a missing one cannot be read") {
   CHECK(fault8("no picture") == "not a PNG file, or its header is damaged");
   CHECK(fault8("") == "not a PNG file, or its header is damaged");
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path missing = folder / "missing.png";
   CHECK(message_of<IoError>([&] { (void)read_png8(missing); }) ==
         fmt::format("cannot read {}: no such file", missing.string()));
 }
 
 TEST_CASE("A truncated picture is damaged, wherever it ends") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string bytes = read_file(written(folder, noise<std::uint8_t>(30, 30)));
   for (const std::size_t length : {34U, 60U, 500U, static_cast<unsigned>(bytes.size()) - 1}) {
     CAPTURE(length);
@@ -196,7 +196,7 @@ TEST_CASE("A truncated picture is damaged, wherever it ends") {
 }
 
 TEST_CASE("A picture with changed pixels is damaged") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   std::string bytes = read_file(written(folder, noise<std::uint8_t>(100, 100)));
   const std::size_t pixels_sum = bytes.size() - 12 - 4 - 4;  // before that of their chunk, and the last chunk
   const auto changed_at = [&bytes](std::size_t place) {

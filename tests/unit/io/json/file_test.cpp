@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace json_file_test {
 
@@ -56,7 +56,7 @@ TEST_CASE("Lists and objects may be nested 64 deep and no deeper") {
 }
 
 TEST_CASE("A file read element by element has the same faults as one read at once") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto fault_of = [&](const std::string& text) {
     const Path file = folder.file("a.json", text);
     const TakeElement take = [](const std::string&, std::size_t, const Json&) {};
@@ -71,7 +71,7 @@ TEST_CASE("A file read element by element has the same faults as one read at onc
 }
 
 TEST_CASE("A JSON file's errors name it") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path broken = folder.file("broken.json", "[1, 2");
   CHECK_THAT(message_of<ConfigError>([&] { (void)read_json(broken); }),
              StartsWith(broken.string() + ":1:6: not JSON: "));

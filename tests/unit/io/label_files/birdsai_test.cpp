@@ -4,7 +4,7 @@
 #include "io/image/png.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace birdsai_files_test {
 
@@ -13,14 +13,14 @@ using namespace thermal;
 namespace {
 
 /// A BIRDSAI folder with one video's rows.
-Path birdsai(const TemporaryFolder& folder, const std::string& rows) {
+Path birdsai(const TestFolder& folder, const std::string& rows) {
   std::filesystem::create_directories(folder / "real/annotations");
   (void)folder.file("real/annotations/night.csv", rows);
   return folder / "real";
 }
 
 std::string fault_in(const std::string& rows) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path root = birdsai(folder, rows);
   const std::string message = message_of<DataError>([&] { (void)read_birdsai(root); });
   const std::string name = (root / "annotations" / "night.csv").string() + ":";
@@ -30,7 +30,7 @@ std::string fault_in(const std::string& rows) {
 }  // namespace
 
 TEST_CASE("BIRDSAI's rows become labels") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const LabelSet set = read_birdsai(birdsai(
       folder, "4,2,10,20,5,6,1,-1,0,0\r\n4,1,-3,0,8,9,0,1,1,0\n\n0,1,1,2,3,4,0,-1,0,1\n7,3,0,0,2,2,0,8,0,0"));
   CHECK(set.name == "real");
@@ -56,7 +56,7 @@ TEST_CASE("BIRDSAI's rows become labels") {
 }
 
 TEST_CASE("BIRDSAI's rows may begin with a byte-order mark") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const LabelSet set = read_birdsai(birdsai(folder,
                                             "\xEF\xBB\xBF"
                                             "4,2,10,20,5,6,1,-1,0,0\r\n"));
@@ -65,7 +65,7 @@ TEST_CASE("BIRDSAI's rows may begin with a byte-order mark") {
 }
 
 TEST_CASE("Frames without a row are there if their picture is") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path root = birdsai(folder, "1,1,1,1,2,2,0,1,0,0\n");
   std::filesystem::create_directories(root / "images/night");
   const std::vector<std::byte> png = encode_png(Plane<std::uint8_t>(7, 5));
@@ -82,7 +82,7 @@ TEST_CASE("Frames without a row are there if their picture is") {
 }
 
 TEST_CASE("Two pictures of one frame are a fault") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path root = birdsai(folder, "1,1,1,1,2,2,0,1,0,0\n");
   std::filesystem::create_directories(root / "images/night");
   for (const char* name : {"night_0000000001.png", "night_1.jpg"})
@@ -93,7 +93,7 @@ TEST_CASE("Two pictures of one frame are a fault") {
 }
 
 TEST_CASE("Objects of BIRDSAI have ids of 64 bits") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const LabelSet set = read_birdsai(birdsai(folder, "0,4294967295,1,1,2,2,0,1,0,0\n"));
   CHECK(set.labels[0].track_id == std::optional<std::int64_t>(4294967295));
 }
@@ -121,7 +121,7 @@ TEST_CASE("An invalid row of BIRDSAI is reported with its line") {
 }
 
 TEST_CASE("A folder without BIRDSAI's annotations is reported") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   CHECK(message_of<IoError>([&] { (void)read_birdsai(folder.path()); }) ==
         (folder / "annotations").string() + " holds no .csv file");
 }

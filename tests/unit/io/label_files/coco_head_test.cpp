@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace coco_head_test {
 
@@ -16,7 +16,7 @@ const char* const kHead =
  "videos": [{"id": 3, "name": "night"}])";
 
 std::string fault_in(const std::string& text) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("truth.json", text);
   const std::string message = message_of<DataError>([&] { (void)read_coco_head(file); });
   return message.starts_with(file.string()) ? message.substr(file.string().size()) : message;
@@ -25,7 +25,7 @@ std::string fault_in(const std::string& text) {
 }  // namespace
 
 TEST_CASE("Categories and videos are read, and nothing behind the images") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const CocoHead head =
       read_coco_head(folder.file("truth.json", std::string(kHead) + R"(, "images": [{"id": 1}, no JSON)"));
   CHECK(head.categories == std::vector<std::pair<std::string, std::int64_t>>{{"human", 7}, {"lion", 2}});
@@ -46,7 +46,7 @@ TEST_CASE("What is no such file is refused") {
 }
 
 TEST_CASE("Links are not followed") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("truth.json", std::string(kHead) + "}");
   std::filesystem::create_symlink(file, folder.path() / "link.json");
   CHECK_THAT(message_of<IoError>([&] { (void)read_coco_head(folder.path() / "link.json"); }),

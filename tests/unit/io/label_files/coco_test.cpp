@@ -4,7 +4,7 @@
 #include "io/json/file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace coco_file_test {
 
@@ -28,7 +28,7 @@ const char* const kTwoFrames = R"({
 
 /// The document with one value changed, `pointer` a JSON pointer.
 std::string fault_with(const std::string& pointer, const Json& value) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Json document = parse_json(kTwoFrames, "");
   document[Json::json_pointer(pointer)] = value;
   const Path file = folder.file("truth.json", document.dump());
@@ -38,7 +38,7 @@ std::string fault_with(const std::string& pointer, const Json& value) {
 }
 
 std::string fault_in(const std::string& text) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("truth.json", text);
   const std::string message = message_of<DataError>([&] { (void)read_coco(file); });
   return message.starts_with(file.string()) ? message.substr(file.string().size()) : message;
@@ -47,7 +47,7 @@ std::string fault_in(const std::string& text) {
 }  // namespace
 
 TEST_CASE("A COCO file becomes labels in the order of videos and frames") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const LabelSet set = read_coco(folder.file("truth.json", kTwoFrames));
   CHECK(set.name == "truth");
   CHECK(set.root == folder.path().string());
@@ -65,7 +65,7 @@ TEST_CASE("A COCO file becomes labels in the order of videos and frames") {
 }
 
 TEST_CASE("A label's optional properties are read if present") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const LabelSet set = read_coco(folder.file("truth.json", kTwoFrames));
   const Label& reported = set.labels[0];
   CHECK(reported.box == LabelBox{1, 2, 3.5, 4});
@@ -87,7 +87,7 @@ TEST_CASE("A label's optional properties are read if present") {
 }
 
 TEST_CASE("Pictures without a video form a video per folder") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const LabelSet set = read_coco(folder.file("val.json", R"({"categories": [], "annotations": [], "images": [
       {"id": 1, "file_name": "b/x/0.jpg"}, {"id": 2, "file_name": "1.jpg"}, {"id": 3, "file_name": "b/x/1.jpg"}]})"));
   REQUIRE(set.videos.size() == 2);
@@ -155,7 +155,7 @@ namespace {
 /// Labels of a file with these images and annotations, of categories 0 "empty" and 1 "elephant".
 LabelSet read_family(const std::string& images, const std::string& annotations = "[]",
                      const std::string& videos = R"([{"id": 1, "name": "vid"}])") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   return read_coco(folder.file(
       "truth.json", R"({"categories": [{"id": 0, "name": "empty"}, {"id": 1, "name": "elephant"}],)"
                     R"("videos": )" +
@@ -233,7 +233,7 @@ TEST_CASE("An order of time that contradicts itself is a fault") {
 // --- ids -------------------------------------------------------------------------------------------------------------
 
 TEST_CASE("Ids arrive as they left: of 64 bits, as text, or as floats that are whole") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const LabelSet set = read_coco(folder.file("truth.json", R"({
       "categories": [{"id": 3735928559, "name": "human"}, {"id": "ele", "name": "elephant"}],
       "images": [{"id": "site1/0001", "file_name": "1.png"}, {"id": 9223372036854775807, "file_name": "2.png"}],

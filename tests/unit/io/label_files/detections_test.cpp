@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace detections_files_test {
 
@@ -33,13 +33,13 @@ LabelSet truth() {
 constexpr const char* kGood = R"({"image_id": 12, "category_id": 5, "bbox": [1, 2.5, 3, 4], "score": 0.75})";
 
 std::vector<Detection> read_text(const std::string& text) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   return read_detections(folder.file("found.json", text), truth());
 }
 
 /// The message for a results file, without its folder.
 std::string fault_of(const std::string& text) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = folder.file("found.json", text).string();
   const std::string message = message_of<DataError>([&] { (void)read_detections(file, truth()); });
   return message.starts_with(file) ? message.substr(file.size() - 10) : message;
@@ -48,7 +48,7 @@ std::string fault_of(const std::string& text) {
 /// The message for a picture's YOLO results, without their folder.
 std::string yolo_fault(const std::string& text, const std::string& name = "winter_000001.txt",
                        const LabelSet& set = truth()) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = folder.file(name, text).string();
   const std::string message = message_of<DataError>([&] { (void)read_detections(folder.path(), set); });
   return message.starts_with(file) ? message.substr(file.size() - name.size()) : message;
@@ -76,7 +76,7 @@ TEST_CASE("COCO results are read in their order") {
 TEST_CASE("An empty list of results is valid") {
   CHECK(read_text("[]").empty());
   CHECK(read_text(" [ ] \n").empty());
-  const TemporaryFolder folder;
+  const TestFolder folder;
   CHECK(read_detections(folder.path(), truth()).empty());
 }
 
@@ -159,7 +159,7 @@ TEST_CASE("Invalid boxes are named") {
 TEST_CASE("In pictures of unknown size, boxes may be anywhere except left and above") {
   LabelSet set = truth();
   for (LabelImage& image : set.images) image.width_px = image.height_px = 0;
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto read = [&](const std::string& box) {
     const auto file = folder.file(
         "found.json", R"([{"image_id": 12, "category_id": 5, "score": 0.5, "bbox": )" + box + "}]");
@@ -172,7 +172,7 @@ TEST_CASE("In pictures of unknown size, boxes may be anywhere except left and ab
 }
 
 TEST_CASE("YOLO results are scaled to their pictures") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   (void)folder.file("winter_000001.txt",
                     "\xEF\xBB\xBF"
                     "1 0.5 0.25 0.125 0.5 0.75\r\n\n  0\t1 1 0 0 1e-3  \n0 0 0 .5 .5 1");
@@ -241,7 +241,7 @@ TEST_CASE("YOLO results need the pictures' sizes") {
 }
 
 TEST_CASE("Missing results cannot be read") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = (folder / "found.json").string();
   CHECK(message_of<IoError>([&] { (void)read_detections(file, truth()); }) ==
         "cannot read " + file + ": No such file or directory");
@@ -277,7 +277,7 @@ std::string entries(const std::vector<std::string>& keys) {
 
 std::vector<Detection> read_entries(const std::vector<std::string>& keys,
                                     const LabelSet& set = folders_truth()) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   return read_detections(folder.file("found.json", entries(keys)), set);
 }
 

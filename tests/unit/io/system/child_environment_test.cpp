@@ -2,7 +2,7 @@
 
 #include "io/system/child_process.h"
 #include "support/catch.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace child_environment_test {
 
@@ -74,7 +74,7 @@ TEST_CASE("Both ways to start a program give it that environment") {
   const std::string script = "/usr/bin/env | grep -E '^PATH=|VELDT_TEST='";
   const std::string expected = kSystemPath + "\nLC_VELDT_TEST=there\n";
   CHECK(run_program(shell(script)).out == expected);
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ChildProcess child(shell(script), folder / "log");
   CHECK(child.wait().code == 0);
   CHECK(read_file(folder / "log") == expected);

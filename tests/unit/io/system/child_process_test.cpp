@@ -6,7 +6,7 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/patience.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace child_process_test {
 
@@ -30,21 +30,21 @@ bool is_running(const std::string& process) { return std::filesystem::exists("/p
 }  // namespace
 
 TEST_CASE("A program reports line by line on its channel") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ChildProcess child(shell("echo one >&3; echo >&3; printf 'two\\nthree\\n' >&3"), folder / "log");
   CHECK(lines_of(child) == std::vector<std::string>{"one", "", "two", "three"});
   CHECK(child.wait().code == 0);
 }
 
 TEST_CASE("What a program prints goes to its log, both streams") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ChildProcess child(shell("echo out; echo error >&2; cat"), folder / "log");  // cat: the input is empty
   (void)child.wait();
   CHECK(read_file(folder / "log") == "out\nerror\n");
 }
 
 TEST_CASE("A log that is there is added to") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path log = folder.file("log", "first\n");
   ChildProcess child(shell("echo second"), log);
   (void)child.wait();
@@ -52,7 +52,7 @@ TEST_CASE("A log that is there is added to") {
 }
 
 TEST_CASE("How a program ended is put into words") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ChildProcess failing(shell("exit 7"), folder / "log");
   CHECK(failing.wait().in_words() == "ended with exit code 7");
   CHECK(failing.wait().code == 7);  // and again
@@ -61,7 +61,7 @@ TEST_CASE("How a program ended is put into words") {
 }
 
 TEST_CASE("A program that cannot be run ends like a shell's") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ChildProcess child({"/nowhere/blender"}, folder / "log");
   CHECK(child.wait().code == 127);
 }
@@ -72,14 +72,14 @@ TEST_CASE("A log that cannot be written is a fault") {
 }
 
 TEST_CASE("An incomplete line, from a program that was killed while writing it, is dropped") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ChildProcess child(shell("printf 'whole\\nhal' >&3; kill -9 $$"), folder / "log");
   CHECK(lines_of(child) == std::vector<std::string>{"whole"});
   CHECK(child.wait().signal == SIGKILL);
 }
 
 TEST_CASE("Many lines, and long ones, come through whole") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ChildProcess child(shell("i=0; while [ $i -lt 2000 ]; do echo $i >&3; i=$((i+1)); done; "
                            "head -c 100000 /dev/zero | tr '\\0' x >&3; echo >&3"),
                      folder / "log");
@@ -90,14 +90,14 @@ TEST_CASE("Many lines, and long ones, come through whole") {
 }
 
 TEST_CASE("Waiting for a line ends after the time given") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ChildProcess child(shell("sleep 3600"), folder / "log");
   CHECK_FALSE(child.next_line(20).has_value());
   CHECK_FALSE(child.ended());
 }
 
 TEST_CASE("Stopping ends the program and what it started") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ChildProcess child(shell("sleep 3600 & echo $! >&3; wait"), folder / "log");
   const std::string grandchild = child.next_line(kPatienceMs).value_or("none");
   REQUIRE(is_running(grandchild));
@@ -107,7 +107,7 @@ TEST_CASE("Stopping ends the program and what it started") {
 }
 
 TEST_CASE("A program that will not end when asked is killed") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ChildProcess child(shell("trap '' TERM; echo ready >&3; while :; do sleep 1; done"), folder / "log");
   REQUIRE(child.next_line(kPatienceMs) == "ready");
   child.stop();
@@ -115,7 +115,7 @@ TEST_CASE("A program that will not end when asked is killed") {
 }
 
 TEST_CASE("A program does not outlive the process that started it") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   std::string process;
   {
     ChildProcess child(shell("echo $$ >&3; exec sleep 3600"), folder / "log");
@@ -175,8 +175,8 @@ TEST_CASE("run_program ends what a program leaves running without its streams") 
 }
 
 TEST_CASE("The reason of a program's failure is the last line of its output that is not empty") {
-  CHECK(run_program(shell("printf 'first\\nlast\\n\\n' >&2")).last_words() == "last");
-  CHECK(run_program(shell("echo out")).last_words().empty());
+  CHECK(run_program(shell("printf 'first\\nlast\\n\\n' >&2")).last_error_line() == "last");
+  CHECK(run_program(shell("echo out")).last_error_line().empty());
 }
 
 }  // namespace child_process_test

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "support/catch.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace cores_test {
 
@@ -17,7 +17,7 @@ namespace {
 using Files = std::vector<std::pair<std::string, std::string>>;  // names and contents
 
 std::optional<double> limit_on(const Files& files) {
-  const TemporaryFolder root;
+  const TestFolder root;
   for (const auto& [name, content] : files) {
     std::filesystem::create_directories((root / name).parent_path());
     (void)root.file(name, content);

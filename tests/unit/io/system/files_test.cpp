@@ -14,7 +14,7 @@
 #include "io/system/folder_lock.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace files_test {
 
@@ -62,14 +62,14 @@ class Holder {
 }  // namespace
 
 TEST_CASE("A file is read completely, whatever it contains") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string content("a\0b\r\n\xFF", 6);
   CHECK(read_file(folder.file("data", content)) == content);
   CHECK(read_file(folder.file("empty", "")).empty());
 }
 
 TEST_CASE("An unreadable file is named, with the system's reason") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path missing = folder / "missing.json";
   CHECK(message_of<IoError>([&] { (void)read_file(missing); }) ==
         "cannot read " + missing.string() + ": No such file or directory");
@@ -78,7 +78,7 @@ TEST_CASE("An unreadable file is named, with the system's reason") {
 }
 
 TEST_CASE("Writing atomically leaves the file, and nothing beside it") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("data.json", "a longer text that was there before");
   write_file_atomically(file, "new");
   CHECK(read_file(file) == "new");
@@ -86,7 +86,7 @@ TEST_CASE("Writing atomically leaves the file, and nothing beside it") {
 }
 
 TEST_CASE("An unwritable file is named, and the old file stays") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path nowhere = folder / "no/folder/data.json";
   CHECK_THAT(message_of<IoError>([&] { write_file_atomically(nowhere, "x"); }),
              StartsWith("cannot write " + nowhere.string()) && EndsWith(": No such file or directory"));
@@ -107,7 +107,7 @@ TEST_CASE("A full disk is a TryAgainError") {
 }
 
 TEST_CASE("Devices and folders are not read: some never end") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   CHECK(message_of<IoError>([] { (void)read_file("/dev/zero"); }) ==
         "cannot read /dev/zero: it is a device; expected a file or a pipe");
   CHECK(message_of<IoError>([&] { (void)read_file(folder.path()); }) ==
@@ -115,7 +115,7 @@ TEST_CASE("Devices and folders are not read: some never end") {
 }
 
 TEST_CASE("A pipe is read to its end; without a writer it is empty, and nothing waits") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path pipe = folder / "pipe";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   CHECK(read_file(pipe).empty());
@@ -128,7 +128,7 @@ TEST_CASE("A pipe is read to its end; without a writer it is empty, and nothing 
 }
 
 TEST_CASE("A file is read up to 1 GiB") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("hole", "");
   std::filesystem::resize_file(file, (std::uintmax_t{1} << 30U) + 1);
   CHECK(message_of<IoError>([&] { (void)read_file(file); }) ==
@@ -136,7 +136,7 @@ TEST_CASE("A file is read up to 1 GiB") {
 }
 
 TEST_CASE("A copy has the content, and replaces nothing") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("a", std::string(200000, 'x'));
   copy_content(file, folder / "b");
   CHECK(read_file(folder / "b") == read_file(file));
@@ -145,7 +145,7 @@ TEST_CASE("A copy has the content, and replaces nothing") {
 }
 
 TEST_CASE("A new file replaces none") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("a", "old");
   CHECK(message_of<IoError>([&] { write_file(file, {}); }) ==
         "cannot write " + file.string() + ": File exists");
@@ -153,7 +153,7 @@ TEST_CASE("A new file replaces none") {
 }
 
 TEST_CASE("Folders are created with their parents; a file in the way is an error") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   make_folder(folder / "a/b/c");
   make_folder(folder / "a/b/c");
   CHECK(std::filesystem::is_directory(folder / "a/b/c"));
@@ -163,7 +163,7 @@ TEST_CASE("Folders are created with their parents; a file in the way is an error
 }
 
 TEST_CASE("One process at a time locks a folder") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path data = folder / "data";
   Holder holder(data);
   CHECK(message_of<TryAgainError>([&] { const FolderLock second(data); }) ==
@@ -173,13 +173,13 @@ TEST_CASE("One process at a time locks a folder") {
 }
 
 TEST_CASE("A folder is free again when its lock ends") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   { const FolderLock first(folder / "data"); }
   CHECK_NOTHROW(FolderLock(folder / "data"));
 }
 
 TEST_CASE("Runs share a folder as long as their places differ") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string in_use =
       folder.path().string() + " is in use by another run of veldt; try again when that one has ended";
   const FolderLock first(folder.path(), {0, 2});
@@ -191,20 +191,20 @@ TEST_CASE("Runs share a folder as long as their places differ") {
 }
 
 TEST_CASE("A folder locked by one run has no places for others, nor for a run without places") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const FolderLock all(folder.path());
   CHECK_THROWS_AS(FolderLock(folder.path(), {7}), TryAgainError);
   CHECK_THROWS_AS(FolderLock(folder.path(), {}), TryAgainError);
 }
 
 TEST_CASE("A run without places prevents others from locking the whole folder") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const FolderLock without_places(folder.path(), {});
   CHECK_THROWS_AS(FolderLock(folder.path()), TryAgainError);
 }
 
 TEST_CASE("Runs that share a folder take turns, and an exception ends a turn") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const FolderLock first(folder.path(), {0});
   const FolderLock second(folder.path(), {1});
   std::atomic<int> value = 0;  // a lock for processes: C++ knows of no order that it gives to threads
@@ -222,14 +222,14 @@ TEST_CASE("Runs that share a folder take turns, and an exception ends a turn") {
 }
 
 TEST_CASE("A file system has some free space, and a missing place reports none") {
-  CHECK(room_left_bytes("/") >= 0);
-  CHECK(room_left_bytes("/proc") == 0);
-  CHECK(message_of<IoError>([] { (void)room_left_bytes("/nowhere"); }) ==
+  CHECK(free_bytes("/") >= 0);
+  CHECK(free_bytes("/proc") == 0);
+  CHECK(message_of<IoError>([] { (void)free_bytes("/nowhere"); }) ==
         "cannot get the free disk space of /nowhere: No such file or directory");
 }
 
 TEST_CASE("Only regular files are read: anything that would block or never end is refused") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto fault_of = [](const Path& file) { return message_of<IoError>([&] { check_is_file(file); }); };
   write_file(folder / "file", {});
   std::filesystem::create_symlink("file", folder / "link");
@@ -250,7 +250,7 @@ TEST_CASE("Only regular files are read: anything that would block or never end i
 }
 
 TEST_CASE("Writing a file replaces links of either name, and their targets stay unchanged") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   write_file_atomically(folder / "kept", "kept");
   for (const char* name : {"file", "file.tmp"}) {
     std::filesystem::create_symlink("kept", folder / name);
@@ -265,7 +265,7 @@ TEST_CASE("Writing a file replaces links of either name, and their targets stay 
 }
 
 TEST_CASE("No partial file is left if a file cannot be written") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   make_folder(folder / "file/in the way");
   CHECK(message_of<IoError>([&] { write_file_atomically(folder / "file", "new"); }) ==
         "cannot rename to " + (folder / "file").string() + ": Is a directory");
@@ -273,7 +273,7 @@ TEST_CASE("No partial file is left if a file cannot be written") {
 }
 
 TEST_CASE("A folder is put elsewhere as a whole, and what was there is gone") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   make_folder(folder / "whole/ir8");
   make_folder(folder / "place/old");
   write_file_atomically(folder / "whole/ir8/0.png", "picture");
@@ -286,7 +286,7 @@ TEST_CASE("A folder is put elsewhere as a whole, and what was there is gone") {
 }
 
 TEST_CASE("The last file of a folder that is put elsewhere is there with its whole content, or not at all") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string record(std::size_t{8} << 20U, 'x');
   const Path place = folder / "place/clip.json";
   std::atomic<bool> done = false;
@@ -309,7 +309,7 @@ TEST_CASE("The last file of a folder that is put elsewhere is there with its who
 }
 
 TEST_CASE("Of a folder that cannot be put elsewhere, nothing is left there, and nothing is lost") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   make_folder(folder / "whole/ir8");
   write_file_atomically(folder / "whole/ir8/0.png", "picture");
   CHECK(message_of<IoError>([&] { put_folder(folder / "whole", folder / "place", "clip.json"); }) ==
@@ -319,7 +319,7 @@ TEST_CASE("Of a folder that cannot be put elsewhere, nothing is left there, and 
 }
 
 TEST_CASE("A lock that is a link to elsewhere is refused") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   std::filesystem::create_symlink("elsewhere", folder / ".lock");
   CHECK(
       message_of<IoError>([&] { const FolderLock lock(folder.path()); }) ==

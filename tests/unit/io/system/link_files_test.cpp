@@ -2,14 +2,14 @@
 #include "io/system/files.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace link_files_test {
 
 using namespace thermal;
 
 TEST_CASE("A file gets a second location as requested") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("a", "what it holds");
   for (const Linking linking : {Linking::hard, Linking::symlink, Linking::copy}) {
     const Path as = folder / "new" / std::to_string(static_cast<int>(linking));
@@ -21,7 +21,7 @@ TEST_CASE("A file gets a second location as requested") {
 }
 
 TEST_CASE("The file itself is linked, not a symbolic link to it, which may be removed") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("a", "x");
   std::filesystem::create_symlink("a", folder / "link");
   for (const Linking linking : {Linking::hard, Linking::symlink, Linking::copy}) {
@@ -35,14 +35,14 @@ TEST_CASE("The file itself is linked, not a symbolic link to it, which may be re
 }
 
 TEST_CASE("Without hard links the file is copied") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path as = folder / "b";
   CHECK(link_file("/proc/version", as, Linking::hard) == Linking::copy);  // another file system
   CHECK(read_file(as) == read_file("/proc/version"));
 }
 
 TEST_CASE("A file that exists is neither replaced nor written to, nor what a link there leads to") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("a", "new");
   const Path old = folder.file("old", "old");
   std::filesystem::create_symlink("old", folder / "link");
@@ -56,7 +56,7 @@ TEST_CASE("A file that exists is neither replaced nor written to, nor what a lin
 }
 
 TEST_CASE("A missing file is an error") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string name = (folder / "none").string();
   CHECK(message_of<IoError>([&] { link_file(name, folder / "b", Linking::hard); }) ==
         "cannot read " + name + ": No such file or directory");

@@ -11,7 +11,7 @@ namespace name_pattern_test {
 
 using thermal::ConfigError;
 using thermal::NamePattern;
-using thermal::NumberPlace;
+using thermal::NumberPosition;
 
 namespace {
 
@@ -68,7 +68,7 @@ TEST_CASE("a pattern with many stars is not slow") {
 }
 
 TEST_CASE("the position of a number is found") {
-  CHECK(NamePattern("shot2_##.exr", "").match("shot2_07.exr") == NumberPlace{.at = 6, .digits = 2});
+  CHECK(NamePattern("shot2_##.exr", "").match("shot2_07.exr") == NumberPosition{.at = 6, .digits = 2});
 }
 
 TEST_CASE("invalid patterns are errors") {

@@ -5,7 +5,7 @@
 #include "io/system/spool.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace output_file_test {
 
@@ -22,7 +22,7 @@ std::vector<std::string> lines_of(Spool& spool) {
 }  // namespace
 
 TEST_CASE("A file has all that was added, and its checksum is that of the whole") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   OutputFile out(folder / "a.txt");
   std::string whole;
   for (int i = 0; i < 3000; ++i) {  // larger than any buffer
@@ -35,13 +35,13 @@ TEST_CASE("A file has all that was added, and its checksum is that of the whole"
 }
 
 TEST_CASE("A file that is not closed is removed") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   { OutputFile(folder / "a.txt").add("half"); }
   CHECK_FALSE(std::filesystem::exists(folder / "a.txt"));
 }
 
 TEST_CASE("A file is renamed to its place when it is closed, and not before") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path place = folder.file("a.txt", "old");
   OutputFile out(folder / "a.txt.tmp");
   out.add("new");
@@ -52,7 +52,7 @@ TEST_CASE("A file is renamed to its place when it is closed, and not before") {
 }
 
 TEST_CASE("Nothing is written through a link") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path other = folder.file("other.txt", "other");
   std::filesystem::create_symlink(other, folder / "a.txt");
   OutputFile out(folder / "a.txt");
@@ -63,7 +63,7 @@ TEST_CASE("Nothing is written through a link") {
 }
 
 TEST_CASE("A file that cannot be made is named, with the reason") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder / "none/a.txt";
   CHECK(message_of<IoError>([&] { const OutputFile out(file); }) ==
         "cannot write " + file.string() + ": No such file or directory");
@@ -73,7 +73,7 @@ TEST_CASE("A file that cannot be made is named, with the reason") {
 }
 
 TEST_CASE("Spooled lines come back in order, from memory and from a file that is then removed") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (const Path& file : {Path(), folder / "lines"}) {
     CAPTURE(file.string());
     Spool spool(file);
@@ -84,7 +84,7 @@ TEST_CASE("Spooled lines come back in order, from memory and from a file that is
 }
 
 TEST_CASE("Lines that are never read are removed with their file") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   {
     Spool spool(folder / "lines");
     spool.add("one");
@@ -94,7 +94,7 @@ TEST_CASE("Lines that are never read are removed with their file") {
 }
 
 TEST_CASE("Lines of a removed file cannot be read, and it is named") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder / "lines";
   Spool spool(file);
   spool.add("one");

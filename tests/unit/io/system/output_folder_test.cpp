@@ -4,7 +4,7 @@
 #include "io/system/files.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace output_folder_test {
 
@@ -20,7 +20,7 @@ void put(const Path& file, const std::string& content) {
 }  // namespace
 
 TEST_CASE("A fresh folder is empty, whatever existed before") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   make_fresh_folder(folder / "clips/a.part");
   CHECK(std::filesystem::is_empty(folder / "clips/a.part"));
   put(folder / "clips/a.part/ir8/0.png", "old");
@@ -33,7 +33,7 @@ TEST_CASE("A fresh folder is empty, whatever existed before") {
 }
 
 TEST_CASE("A folder of our own keeps its files, and has no links in it") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   put(folder / "out/passes/0.exr", "old");
   make_own_folder(folder / "out/passes");
   CHECK(read_file(folder / "out/passes/0.exr") == "old");
@@ -48,7 +48,7 @@ TEST_CASE("A folder of our own keeps its files, and has no links in it") {
 }
 
 TEST_CASE("A fresh folder replaces a link, and the link's target stays") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   put(folder / "elsewhere/kept", "kept");
   make_folder(folder / "clips");
   std::filesystem::create_directory_symlink(folder / "elsewhere", folder / "clips/a.part");
@@ -59,7 +59,7 @@ TEST_CASE("A fresh folder replaces a link, and the link's target stays") {
 }
 
 TEST_CASE("A fresh folder is not created where its parent leads elsewhere") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   make_folder(folder / "elsewhere");
   std::filesystem::create_directory_symlink(folder / "elsewhere", folder / "clips");
   CHECK(message_of<IoError>([&] { make_fresh_folder(folder / "clips/a.part"); }) ==
@@ -70,7 +70,7 @@ TEST_CASE("A fresh folder is not created where its parent leads elsewhere") {
 }
 
 TEST_CASE("A complete folder replaces nothing, a folder, or a link") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   put(folder / "elsewhere/kept", "kept");
   if (GENERATE(true, false)) put(folder / "a/old", "old");
   for (const bool link : {false, true}) {
@@ -89,13 +89,13 @@ TEST_CASE("A complete folder replaces nothing, a folder, or a link") {
 }
 
 TEST_CASE("A missing folder cannot be renamed") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   CHECK(message_of<IoError>([&] { replace_folder(folder / "a.part", folder / "a"); }) ==
         fmt::format("cannot rename to {}: No such file or directory", (folder / "a").string()));
 }
 
 TEST_CASE("What cannot be removed is named, with the reason") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   put(folder / "a/ir8/0.png", "old");
   CHECK_FALSE(sweep_folder(folder / "a").has_value());
   CHECK_FALSE(std::filesystem::exists(folder / "a"));

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace sequence_test {
 
@@ -126,7 +126,7 @@ TEST_CASE("without a matching pattern the result is empty") {
 }
 
 TEST_CASE("passes of a folder: EXR files, otherwise PNG files, and no hidden ones") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (const char* name : {"a1.png", "B2.PNG", ".c3.png", "notes.txt"}) (void)folder.file(name, "");
   std::filesystem::create_directory(folder / "d4.png");
   const Names names = files_in(folder.path());

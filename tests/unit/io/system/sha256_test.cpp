@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "io/system/files.h"
 #include "support/catch.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace sha256_test {
 
@@ -49,7 +49,7 @@ TEST_CASE("SHA-256 gives the standard's answers") {
 }
 
 TEST_CASE("A file's checksum is that of its content, and takes no memory for it") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   CHECK(sha256_of_file(folder.file("empty", "")) == sha256_of(""));
   CHECK(sha256_of_file(folder.file("abc", "abc")) == sha256_of("abc"));
   const std::string long_text = std::string(100'000, 'a') + "b";

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace tar_file_test {
 
@@ -14,7 +14,7 @@ using namespace thermal;
 constexpr std::size_t kBlock = 512;
 
 TEST_CASE("A tar file has a header block per file, whole blocks of content, and two empty blocks") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.path() / "a.tar";
   {
     TarFile tar(file);
@@ -39,7 +39,7 @@ TEST_CASE("A tar file has a header block per file, whole blocks of content, and 
 }
 
 TEST_CASE("A tar file that is not closed is removed") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.path() / "a.tar";
   {
     TarFile tar(file);
@@ -50,7 +50,7 @@ TEST_CASE("A tar file that is not closed is removed") {
 }
 
 TEST_CASE("A tar file replaces nothing") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.path() / "a.tar";
   write_file_atomically(file, "mine");
   CHECK(message_of<IoError>([&] { TarFile tar(file); }) == "cannot write " + file.string() + ": File exists");

@@ -3,21 +3,21 @@
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace text_file_test {
 
 using namespace thermal;
 
 TEST_CASE("A text file is read without its byte-order mark, and otherwise as it is") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   CHECK(read_text_file(folder.file("a", "\xEF\xBB\xBFx\r\ny")) == "x\r\ny");
   CHECK(read_text_file(folder.file("b", "x\xEF\xBB\xBF")) == "x\xEF\xBB\xBF");
   CHECK(read_text_file(folder.file("c", "")).empty());
 }
 
 TEST_CASE("A text file of more than the limit is not read") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder.file("large.csv", std::string(4097, 'x'));
   CHECK(read_text_file(file, 4097).size() == 4097);
   CHECK(message_of<IoError>([&] { (void)read_text_file(file, 4096); }) ==
@@ -29,7 +29,7 @@ TEST_CASE("A text file of more than the limit is not read") {
 }
 
 TEST_CASE("What is not a regular file is not read") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto fault_of = [](const Path& file) {
     return message_of<IoError>([&] { (void)read_text_file(file); });
   };

@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "support/catch.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace preview_video_test {
 
@@ -12,7 +12,7 @@ using namespace thermal;
 
 namespace {
 
-std::string video(const TemporaryFolder& folder, int width_px, int height_px) {
+std::string video(const TestFolder& folder, int width_px, int height_px) {
   const Path file = folder / "video.mp4";
   PreviewVideo writer(file, 7.5, width_px, height_px);
   for (int i = 0; i < 5; ++i) {
@@ -27,7 +27,7 @@ std::string video(const TemporaryFolder& folder, int width_px, int height_px) {
 }  // namespace
 
 TEST_CASE("A video is an MP4 of H.264, and the same bytes each time, whatever the threads") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string once = video(folder, 64, 48);
   CHECK(once.substr(4, 4) == "ftyp");
   CHECK(once.find("avc1") != std::string::npos);
@@ -35,7 +35,7 @@ TEST_CASE("A video is an MP4 of H.264, and the same bytes each time, whatever th
 }
 
 TEST_CASE("A video may have any size, odd ones too") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (const auto& [width_px, height_px] :
        {std::pair(1, 1), std::pair(1, 37), std::pair(37, 1), std::pair(63, 47)}) {
     CAPTURE(width_px, height_px);
@@ -44,7 +44,7 @@ TEST_CASE("A video may have any size, odd ones too") {
 }
 
 TEST_CASE("A video that cannot be written is reported by name, with the reason") {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Path file = folder / "none/video.mp4";
   CHECK(message_of<IoError>([&] { const PreviewVideo video(file, 9, 8, 8); }) ==
         "cannot write " + file.string() + ": No such file or directory");

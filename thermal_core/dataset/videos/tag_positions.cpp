@@ -1,4 +1,4 @@
-#include "dataset/videos/tag_places.h"
+#include "dataset/videos/tag_positions.h"
 
 #include <algorithm>
 #include <array>
@@ -52,7 +52,7 @@ double overlap_px(const PixelRect& a, const PixelRect& b) noexcept {
   return width > 0 && height > 0 ? static_cast<double>(width) * height : 0;
 }
 
-TagPlace TagPlacer::candidate(const Tagged& tagged, std::size_t number) const {
+TagPosition TagPlacer::candidate(const Tagged& tagged, std::size_t number) const {
   const Position& position = kPositions[number];
   const PixelRect box{tagged.box.x_px - gap_px_, tagged.box.y_px - gap_px_, tagged.box.width_px + 2 * gap_px_,
                       tagged.box.height_px + 2 * gap_px_};
@@ -68,20 +68,20 @@ TagPlace TagPlacer::candidate(const Tagged& tagged, std::size_t number) const {
 }
 
 /// Weighted share of the tag that covers the target itself, other tags and other targets.
-double TagPlacer::cost_of(const TagPlace& place, const Tagged& owner, const std::vector<Tagged>& tags,
-                          const std::vector<TagPlace>& placed) const {
+double TagPlacer::cost_of(const TagPosition& tag_position, const Tagged& owner, const std::vector<Tagged>& tags,
+                          const std::vector<TagPosition>& placed) const {
   constexpr double kOwnBox = 8;
   constexpr double kTag = 6;
   constexpr double kOtherBox = 4;
   double covered = 0;
   for (const Tagged& other : tags)
-    covered += (&other == &owner ? kOwnBox : kOtherBox) * overlap_px(place.tag, other.box);
-  for (const TagPlace& other : placed) covered += kTag * overlap_px(place.tag, other.tag);
-  return covered / std::max(1, place.tag.width_px * place.tag.height_px);
+    covered += (&other == &owner ? kOwnBox : kOtherBox) * overlap_px(tag_position.tag, other.box);
+  for (const TagPosition& other : placed) covered += kTag * overlap_px(tag_position.tag, other.tag);
+  return covered / std::max(1, tag_position.tag.width_px * tag_position.tag.height_px);
 }
 
 std::size_t TagPlacer::best_for(const Tagged& owner, const std::vector<Tagged>& tags,
-                                const std::vector<TagPlace>& placed) const {
+                                const std::vector<TagPosition>& placed) const {
   constexpr double kStep = 0.02;  // earlier candidates are preferred
   constexpr double kMoving = 0.3;
   constexpr double kLed = 0.2;
@@ -100,8 +100,8 @@ std::size_t TagPlacer::best_for(const Tagged& owner, const std::vector<Tagged>& 
   return best;
 }
 
-std::vector<TagPlace> TagPlacer::place(const std::vector<Tagged>& tags) {
-  std::vector<TagPlace> placed;
+std::vector<TagPosition> TagPlacer::place(const std::vector<Tagged>& tags) {
+  std::vector<TagPosition> placed;
   std::map<std::int64_t, std::size_t> chosen;
   for (const Tagged& tagged : tags) {
     const std::size_t number = best_for(tagged, tags, placed);

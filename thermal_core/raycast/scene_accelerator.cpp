@@ -1,4 +1,4 @@
-#include "raycast/place.h"
+#include "raycast/scene_accelerator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -111,7 +111,7 @@ std::vector<Piece> surroundings_of(const BakedScene& scene) {
 
 }  // namespace
 
-Place::Place(const BakedScene& scene, RTCFilterFunctionN filter)
+SceneAccelerator::SceneAccelerator(const BakedScene& scene, RTCFilterFunctionN filter)
     : scene_(scene),
       device_(new_device()),
       meshes_(scene.meshes.size()),
@@ -147,7 +147,7 @@ Place::Place(const BakedScene& scene, RTCFilterFunctionN filter)
   }
 }
 
-PieceSet Place::set_of(std::vector<Piece> pieces) const {
+PieceSet SceneAccelerator::set_of(std::vector<Piece> pieces) const {
   PieceSet set{.pieces = std::move(pieces), .scene = new_scene(device_.get())};
   for (std::size_t k = 0; k < set.pieces.size(); ++k) {
     const Piece& piece = set.pieces[k];

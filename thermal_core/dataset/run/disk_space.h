@@ -11,7 +11,7 @@
 namespace thermal {
 
 /// Disk space used by a clip, and an estimate of what it still needs.
-struct ClipRoom {
+struct ClipSpace {
   /// Files of one kind, one per frame.
   struct Files {
     std::int64_t worst_bytes = 0;  ///< size of one, used until the first exists
@@ -41,23 +41,23 @@ struct ClipFiles {
 };
 
 /// A clip without any files yet.
-[[nodiscard]] ClipRoom room_for(const Config& config, const ClipConfig& clip, const ClipFiles& files);
+[[nodiscard]] ClipSpace space_for(const Config& config, const ClipConfig& clip, const ClipFiles& files);
 
 /// "850 kB", "85 MB", "1.2 GB": two digits or more; kB is 1000 bytes and the smallest unit.
 [[nodiscard]] std::string bytes_in_words(std::int64_t bytes);
 
 /// TryAgainError if less than twice the needed space is left. `folder` and `whose` are for the message.
-void check_room(std::int64_t left_bytes, std::int64_t needed_bytes, const std::string& folder,
+void check_space(std::int64_t left_bytes, std::int64_t needed_bytes, const std::string& folder,
                 const std::string& whose);
 
 /// Follows the files of a clip as they are written, and reports the disk space it still needs; from any thread.
 /// Exceptions of the report pass through.
-class RoomWatch {
+class SpaceWatch {
  public:
   using Report = std::function<void(std::int64_t needed_bytes)>;
 
   /// Counts the passes left by an earlier run.
-  RoomWatch(const Config& config, const ClipConfig& clip, const Layout& layout, const ClipFiles& files,
+  SpaceWatch(const Config& config, const ClipConfig& clip, const Layout& layout, const ClipFiles& files,
             Report report);
 
   /// Records that this many leading frames of the passes are complete.
@@ -66,13 +66,13 @@ class RoomWatch {
   void pictures_written();
 
  private:
-  void report() const { report_(room_.needed_bytes()); }
+  void report() const { report_(space_.needed_bytes()); }
 
   std::string id_;
   Layout layout_;
   Report report_;
   std::mutex mutex_;
-  ClipRoom room_;
+  ClipSpace space_;
 };
 
 }  // namespace thermal

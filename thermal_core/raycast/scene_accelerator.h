@@ -26,11 +26,11 @@ struct PieceSet {
 using MeshBox = std::array<std::array<double, 3>, 2>;
 
 /// A baked scene with the acceleration structures that all its frames share.
-class Place {
+class SceneAccelerator {
  public:
   /// The scene must outlive this object. Embree calls `filter` for each hit; null: it keeps the first hit. Error if
   /// there is not enough memory.
-  Place(const BakedScene& scene, RTCFilterFunctionN filter);
+  SceneAccelerator(const BakedScene& scene, RTCFilterFunctionN filter);
 
   [[nodiscard]] const BakedScene& scene() const noexcept { return scene_; }
 

@@ -1,4 +1,4 @@
-#include "io/system/passing_folder.h"
+#include "io/system/temporary_folder.h"
 
 #include <csignal>
 #include <cstdlib>
@@ -8,7 +8,7 @@
 
 #include "support/catch.h"
 #include "support/patience.h"
-#include "support/temporary_folder.h"
+#include "support/test_folder.h"
 
 namespace passing_folder_test {
 
@@ -24,7 +24,7 @@ class OwnTemporaries {
   OwnTemporaries(const OwnTemporaries&) = delete;
   OwnTemporaries& operator=(const OwnTemporaries&) = delete;
 
-  TemporaryFolder folder;
+  TestFolder folder;
 };
 
 }  // namespace
@@ -33,7 +33,7 @@ TEST_CASE("A passing folder goes with its contents") {
   const OwnTemporaries temporaries;
   Path path;
   {
-    const PassingFolder passing;
+    const TemporaryFolder passing;
     path = passing.path();
     CHECK(std::filesystem::is_empty(path));
     write_file(path / "file", {});
@@ -46,7 +46,7 @@ TEST_CASE("A passing folder goes with its contents if its process is interrupted
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
     const int process = ::fork();
     if (process == 0) {
-      const PassingFolder passing;
+      const TemporaryFolder passing;
       make_folder(passing.path() / "deep");
       write_file(passing.path() / "deep" / "file", {});
       ::signal(signal, SIG_DFL);
@@ -66,9 +66,9 @@ TEST_CASE("A passing folder removes what a killed run has left, and nothing that
   const Path kept = temporaries.folder / "elsewhere";
   for (const Path& folder : {left, foreign, kept}) make_folder(folder / "inside");
   std::filesystem::create_directory_symlink(kept, temporaries.folder / ".veldt-passing-link");
-  const PassingFolder used;
+  const TemporaryFolder used;
   CHECK_FALSE(std::filesystem::exists(left));
-  const PassingFolder second;
+  const TemporaryFolder second;
   CHECK(std::filesystem::exists(used.path()));
   CHECK(std::filesystem::exists(foreign / "inside"));
   CHECK(std::filesystem::exists(kept / "inside"));

@@ -18,7 +18,7 @@ struct Tagged {
 };
 
 /// Position of a tag.
-struct TagPlace {
+struct TagPosition {
   PixelRect tag;
   bool led = false;  ///< so far off that a leader line connects it to its box
 };
@@ -31,14 +31,14 @@ class TagPlacer {
   TagPlacer(const PixelRect& picture, int gap_px) : picture_(picture), gap_px_(gap_px) {}
 
   /// Positions of the tags of one frame, in their order. A tag larger than the picture starts at its top left.
-  [[nodiscard]] std::vector<TagPlace> place(const std::vector<Tagged>& tags);
+  [[nodiscard]] std::vector<TagPosition> place(const std::vector<Tagged>& tags);
 
  private:
-  [[nodiscard]] TagPlace candidate(const Tagged& tagged, std::size_t number) const;
-  [[nodiscard]] double cost_of(const TagPlace& place, const Tagged& owner, const std::vector<Tagged>& tags,
-                               const std::vector<TagPlace>& placed) const;
+  [[nodiscard]] TagPosition candidate(const Tagged& tagged, std::size_t number) const;
+  [[nodiscard]] double cost_of(const TagPosition& tag_position, const Tagged& owner, const std::vector<Tagged>& tags,
+                               const std::vector<TagPosition>& placed) const;
   [[nodiscard]] std::size_t best_for(const Tagged& owner, const std::vector<Tagged>& tags,
-                                     const std::vector<TagPlace>& placed) const;
+                                     const std::vector<TagPosition>& placed) const;
 
   PixelRect picture_;
   int gap_px_;

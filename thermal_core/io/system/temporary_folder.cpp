@@ -1,4 +1,4 @@
-#include "io/system/passing_folder.h"
+#include "io/system/temporary_folder.h"
 
 #include <array>
 #include <cerrno>
@@ -56,7 +56,7 @@ void sweep(const Path& temporary) {
 
 }  // namespace
 
-PassingFolder::PassingFolder() {
+TemporaryFolder::TemporaryFolder() {
   const Path temporary = std::filesystem::temp_directory_path();
   sweep(temporary);
   while (lock_ < 0) {  // again if another run removed the folder before it was locked
@@ -69,7 +69,7 @@ PassingFolder::PassingFolder() {
   start_guard();
 }
 
-PassingFolder::~PassingFolder() {
+TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
   ::close(lock_);
@@ -82,7 +82,7 @@ PassingFolder::~PassingFolder() {
 }
 
 /// If the system refuses to start a guard, the next run removes the folder.
-void PassingFolder::start_guard() {
+void TemporaryFolder::start_guard() {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) return;
   std::array<std::string, 4> words = {"/bin/rm", "-rf", "--", path_.string()};

@@ -6,13 +6,13 @@ namespace thermal {
 
 /// A new temporary folder; removed with its contents by the destructor. If this process is interrupted or killed, a
 /// guard process removes it; if that fails, the next run that creates one does.
-class PassingFolder {
+class TemporaryFolder {
  public:
   /// IoError if it cannot be created.
-  PassingFolder();
-  ~PassingFolder();
-  PassingFolder(const PassingFolder&) = delete;
-  PassingFolder& operator=(const PassingFolder&) = delete;
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   [[nodiscard]] const Path& path() const noexcept { return path_; }
 
  private:

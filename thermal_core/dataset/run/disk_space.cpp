@@ -1,4 +1,4 @@
-#include "dataset/run/disk_room.h"
+#include "dataset/run/disk_space.h"
 
 #include <array>
 #include <system_error>
@@ -26,16 +26,16 @@ std::int64_t size_bytes(const Path& file) {
 
 }  // namespace
 
-std::int64_t ClipRoom::Files::bytes_a_frame() const {
+std::int64_t ClipSpace::Files::bytes_a_frame() const {
   return count == 0 ? worst_bytes : (bytes + count - 1) / count;
 }
 
-std::int64_t ClipRoom::needed_bytes() const {
+std::int64_t ClipSpace::needed_bytes() const {
   return (frames - passes.count) * passes.bytes_a_frame() +
          (frames - pictures.count) * pictures.bytes_a_frame();
 }
 
-ClipRoom room_for(const Config& config, const ClipConfig& clip, const ClipFiles& files) {
+ClipSpace space_for(const Config& config, const ClipConfig& clip, const ClipFiles& files) {
   const std::int64_t finer = config.supersample;
   const std::int64_t wide_px = finer * (config.width_px + 2 * config.overscan_px);
   const std::int64_t high_px = finer * (config.height_px + 2 * config.overscan_px);
@@ -57,33 +57,33 @@ std::string bytes_in_words(std::int64_t bytes) {
   return fmt::format("{:.{}f} {}", value, one_digit ? 1 : 0, kUnits[unit]);
 }
 
-void check_room(std::int64_t left_bytes, std::int64_t needed_bytes, const std::string& folder,
+void check_space(std::int64_t left_bytes, std::int64_t needed_bytes, const std::string& folder,
                 const std::string& whose) {
   if (left_bytes / 2 >= needed_bytes) return;
   throw TryAgainError(fmt::format("{} = {} left; expected at least 2 x the {} that {} still needs", folder,
                                   bytes_in_words(left_bytes), bytes_in_words(needed_bytes), whose));
 }
 
-RoomWatch::RoomWatch(const Config& config, const ClipConfig& clip, const Layout& layout,
+SpaceWatch::SpaceWatch(const Config& config, const ClipConfig& clip, const Layout& layout,
                      const ClipFiles& files, Report report)
-    : id_(clip.id), layout_(layout), report_(std::move(report)), room_(room_for(config, clip, files)) {
+    : id_(clip.id), layout_(layout), report_(std::move(report)), space_(space_for(config, clip, files)) {
   int there = 0;
   while (there < clip.frames && std::filesystem::exists(layout_.passes(id_) / passes_name(there))) ++there;
   passes_ready(there);
 }
 
-void RoomWatch::passes_ready(int frames) {
+void SpaceWatch::passes_ready(int frames) {
   const std::lock_guard lock(mutex_);
-  while (room_.passes.count < frames)
-    room_.passes.add(size_bytes(layout_.passes(id_) / passes_name(room_.passes.count)));
+  while (space_.passes.count < frames)
+    space_.passes.add(size_bytes(layout_.passes(id_) / passes_name(space_.passes.count)));
   report();
 }
 
-void RoomWatch::pictures_written() {
+void SpaceWatch::pictures_written() {
   const std::lock_guard lock(mutex_);
   const Path folder = layout_.unfinished_clip(id_);
-  const std::string name = frame_name(room_.pictures.count);
-  room_.pictures.add(size_bytes(folder / "ir8" / name) + size_bytes(folder / "ir16" / name));
+  const std::string name = frame_name(space_.pictures.count);
+  space_.pictures.add(size_bytes(folder / "ir8" / name) + size_bytes(folder / "ir16" / name));
   report();
 }
 

@@ -1,4 +1,4 @@
-#include "dataset/run/disk_room.h"
+#include "dataset/run/disk_space.h"
 
 #include "base/error.h"
 #include "support/catch.h"
@@ -20,39 +20,39 @@ Config small_pictures(int supersample) {
 }
 
 std::string fault_of(std::int64_t left_bytes, std::int64_t needed_bytes) {
-  return message_of<TryAgainError>([&] { check_room(left_bytes, needed_bytes, "out", "clip down"); });
+  return message_of<TryAgainError>([&] { check_space(left_bytes, needed_bytes, "out", "clip down"); });
 }
 
 }  // namespace
 
 TEST_CASE("Before the first frame a clip needs the worst case: 40 bytes per pixel of passes, 4 of pictures") {
   const ClipConfig clip = {.id = "down", .frames = 10};
-  CHECK(room_for(small_pictures(1), clip, {}).needed_bytes() == 10 * (40 * 110 * 60 + 4 * 100 * 50));
-  CHECK(room_for(small_pictures(3), clip, {}).needed_bytes() == 10 * (40 * 330 * 180 + 4 * 100 * 50));
-  CHECK(room_for(small_pictures(1), clip, {.pictures = false}).needed_bytes() == 10 * 40 * 110 * 60);
+  CHECK(space_for(small_pictures(1), clip, {}).needed_bytes() == 10 * (40 * 110 * 60 + 4 * 100 * 50));
+  CHECK(space_for(small_pictures(3), clip, {}).needed_bytes() == 10 * (40 * 330 * 180 + 4 * 100 * 50));
+  CHECK(space_for(small_pictures(1), clip, {.pictures = false}).needed_bytes() == 10 * 40 * 110 * 60);
 }
 
 TEST_CASE("Existing files predict the size of the others") {
-  ClipRoom room = {.frames = 10, .passes = {.worst_bytes = 1000}, .pictures = {.worst_bytes = 500}};
-  CHECK(room.needed_bytes() == 15000);
-  room.passes.add(100);
-  CHECK(room.needed_bytes() == 9 * 100 + 10 * 500);
-  room.passes.add(201);  // a mean of 150.5
-  room.pictures.add(10);
-  CHECK(room.needed_bytes() == 8 * 151 + 9 * 10);
-  for (int frame = 2; frame < 10; ++frame) room.passes.add(150);
-  for (int frame = 1; frame < 10; ++frame) room.pictures.add(10);
-  CHECK(room.needed_bytes() == 0);
+  ClipSpace space = {.frames = 10, .passes = {.worst_bytes = 1000}, .pictures = {.worst_bytes = 500}};
+  CHECK(space.needed_bytes() == 15000);
+  space.passes.add(100);
+  CHECK(space.needed_bytes() == 9 * 100 + 10 * 500);
+  space.passes.add(201);  // a mean of 150.5
+  space.pictures.add(10);
+  CHECK(space.needed_bytes() == 8 * 151 + 9 * 10);
+  for (int frame = 2; frame < 10; ++frame) space.passes.add(150);
+  for (int frame = 1; frame < 10; ++frame) space.pictures.add(10);
+  CHECK(space.needed_bytes() == 0);
 }
 
 TEST_CASE("A clip of a terabyte does not overflow") {
-  const ClipRoom room = {.frames = 1'000'000, .passes = {.worst_bytes = 40'000'000}, .pictures = {}};
-  CHECK(room.needed_bytes() == 40'000'000'000'000);
+  const ClipSpace space = {.frames = 1'000'000, .passes = {.worst_bytes = 40'000'000}, .pictures = {}};
+  CHECK(space.needed_bytes() == 40'000'000'000'000);
 }
 
 TEST_CASE("Twice the needed space is enough, and less is not") {
-  CHECK_NOTHROW(check_room(170'000'000, 85'000'000, "out", "clip down"));
-  CHECK_NOTHROW(check_room(0, 0, "out", "clip down"));
+  CHECK_NOTHROW(check_space(170'000'000, 85'000'000, "out", "clip down"));
+  CHECK_NOTHROW(check_space(0, 0, "out", "clip down"));
   CHECK(fault_of(120'000'000, 85'000'000) ==
         "out = 120 MB left; expected at least 2 x the 85 MB that clip down still needs");
   CHECK(fault_of(169'999'999, 85'000'000).starts_with("out = 170 MB left"));

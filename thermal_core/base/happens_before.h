@@ -14,7 +14,7 @@ namespace thermal {
 /// everything after a later take(). ThreadSanitizer cannot see that order, because Debian's libtbb is compiled without
 /// it. Sources that include TBB's algorithms are compiled without it too, as it would report TBB's own accesses to
 /// tasks that move between threads; what these sources call is checked. Does nothing in other builds.
-class HandOver {
+class HappensBefore {
  public:
 #if defined(VELDT_THREAD_SANITIZER)
   void give() noexcept { __tsan_release(this); }
@@ -28,13 +28,13 @@ class HandOver {
 /// Calls take() when constructed and give() when destroyed.
 class Turn {
  public:
-  explicit Turn(HandOver& hand_over) noexcept : hand_over_(hand_over) { hand_over_.take(); }
-  ~Turn() { hand_over_.give(); }
+  explicit Turn(HappensBefore& order) noexcept : order_(order) { order_.take(); }
+  ~Turn() { order_.give(); }
   Turn(const Turn&) = delete;
   Turn& operator=(const Turn&) = delete;
 
  private:
-  HandOver& hand_over_;
+  HappensBefore& order_;
 };
 
 /// Work that one thread divides into unordered parts and waits for, also when a part throws.
@@ -57,8 +57,8 @@ class DividedWork {
   };
 
  private:
-  HandOver begin_;
-  HandOver end_;
+  HappensBefore begin_;
+  HappensBefore end_;
 };
 
 /// While it exists, ThreadSanitizer ignores what this thread writes: for calls of a library whose own threads read that

@@ -1,4 +1,4 @@
-#include "io/system/held_folder.h"
+#include "io/system/locked_folder.h"
 
 #include <cerrno>
 #include <cstring>
@@ -58,7 +58,7 @@ void empty(const Path& folder) {
 
 }  // namespace
 
-HeldFolder::HeldFolder(const Path& folder) : folder_(folder) {
+LockedFolder::LockedFolder(const Path& folder) : folder_(folder) {
   check_is_no_link(folder.parent_path());
   do {
     if (descriptor_ >= 0) ::close(descriptor_);
@@ -73,15 +73,15 @@ HeldFolder::HeldFolder(const Path& folder) : folder_(folder) {
   }
 }
 
-HeldFolder::~HeldFolder() {
+LockedFolder::~LockedFolder() {
   if (is_at(descriptor_, folder_)) (void)sweep_folder(folder_);
   ::close(descriptor_);
 }
 
-std::optional<LeftOver> sweep_unless_held(const Path& folder) {
+std::optional<LeftOver> sweep_unless_locked(const Path& folder) {
   const int descriptor = open_folder(folder);
   if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR || errno == ELOOP)) return std::nullopt;
-  if (descriptor < 0) return LeftOver{.place = folder, .reason = std::strerror(errno)};
+  if (descriptor < 0) return LeftOver{.location = folder, .reason = std::strerror(errno)};
   std::optional<LeftOver> left_over;
   if (!is_held(descriptor, false) && is_at(descriptor, folder)) left_over = sweep_folder(folder);
   ::close(descriptor);
