@@ -1,25 +1,24 @@
 #include "cli/command.h"
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <cerrno>
+#include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text.h"
 #include "base/version.h"
-#include "cli/named_document.h"
-#include "cli/output.h"
-#include "cli/stop_signal.h"
 #include "dataset/run/render.h"
-#include "io/assets.h"
-#include "io/system/cores.h"
+#include "io/system/machine.h"
 
 namespace veldt {
 namespace {
@@ -216,6 +215,79 @@ int run_command_line(int argc, const char* const* argv) {
     return written(print_parsed(app, error));
   }
   return written(run_guarded(session));
+}
+
+namespace {
+
+bool can_be_read(const thermal::Path& file) {
+  std::error_code none;
+  return std::filesystem::is_regular_file(file, none) && ::access(file.c_str(), R_OK) == 0;
+}
+
+}  // namespace
+
+thermal::Json read_named_document(const thermal::Path& file) {
+  try {
+    return thermal::read_json(file);
+  } catch (const thermal::IoError& error) {
+    if (can_be_read(file)) throw;
+    throw thermal::ConfigError(error.what());
+  }
+}
+
+namespace {
+
+/// A signal handler can only reach a global; this is the program's only one.
+std::atomic<int> received{0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+
+void remember(int signal) {
+  received = signal;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+void watch_for_stop() {
+  std::signal(SIGINT, remember);
+  std::signal(SIGTERM, remember);
+}
+
+int stop_signal() noexcept { return received; }
+
+void add_box_style(CLI::App& command, thermal::BoxStyle& style, const std::string& help) {
+  command
+      .add_option_function<std::string>(
+          "--box-style",
+          [&style](const std::string& name) {
+            style = name == "drawn" ? thermal::BoxStyle::drawn : thermal::BoxStyle::visible;
+          },
+          help)
+      ->check(CLI::IsMember({"visible", "drawn"}))
+      ->default_str("visible");
+}
+
+namespace {
+
+constexpr double kPixels = 1e6;
+constexpr double kMostMegapixels = 1e6;
+
+}  // namespace
+
+void add_max_megapixels(CLI::App* command, double& max_megapixels) {
+  command
+      ->add_option("--max-megapixels", max_megapixels,
+                   "Refuse files that claim more pixels, before memory is allocated for them")
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+thermal::ReadLimits read_limits(double max_megapixels) {
+  const double pixels = max_megapixels * kPixels;
+  if (!(pixels >= 1 && max_megapixels <= kMostMegapixels)) {  // this form rejects NaN
+    throw thermal::ConfigError(thermal::fault("--max-megapixels", fmt::format("{}", max_megapixels), "",
+                                              "at least 0.000001 (a pixel) and at most 1000000"));
+  }
+  return {.pixels = std::llround(pixels)};
 }
 
 }  // namespace veldt

@@ -11,6 +11,10 @@
 #include "cli/output.h"
 #include "io/assets.h"
 #include "io/config/config.h"
+#include "io/json/file.h"
+#include "io/pass_reader.h"
+#include "io/system/files.h"
+#include "labels/box_style.h"
 
 namespace veldt {
 
@@ -90,5 +94,24 @@ void add_engine(CLI::App* command, std::string& engine);
 
 /// Parses and runs a command line; errors go to standard error. Returns the exit code.
 int run_command_line(int argc, const char* const* argv);
+
+/// Reads a JSON document that the user names. ConfigError if it is missing or not readable for this user; IoError for a
+/// failure of the machine.
+[[nodiscard]] thermal::Json read_named_document(const thermal::Path& file);
+
+/// From now on Ctrl-C and SIGTERM request a stop instead of ending the program; a second one ends it.
+void watch_for_stop();
+
+/// The signal that requested a stop; 0 if none did.
+[[nodiscard]] int stop_signal() noexcept;
+
+/// Adds --box-style, which sets `style`.
+void add_box_style(CLI::App& command, thermal::BoxStyle& style, const std::string& help);
+
+/// Adds --max-megapixels N to a command that reads passes.
+void add_max_megapixels(CLI::App* command, double& max_megapixels);
+
+/// The limits of --max-megapixels. ConfigError if it is not a number of pixels.
+[[nodiscard]] thermal::ReadLimits read_limits(double max_megapixels);
 
 }  // namespace veldt

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "base/printable.h"
+#include "base/text.h"
 #include "io/json/file.h"
 
 /// All output goes through these functions, because names in files may contain escape sequences for terminals.

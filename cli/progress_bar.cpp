@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "base/printable.h"
+#include "base/text.h"
+#include "cli/command.h"
 #include "cli/output.h"
-#include "cli/stop_signal.h"
 
 namespace veldt {
 namespace {

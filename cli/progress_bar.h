@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cli/command.h"
-#include "dataset/run/progress.h"
+#include "dataset/progress.h"
 
 namespace veldt {
 

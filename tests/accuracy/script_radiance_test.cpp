@@ -1,9 +1,8 @@
-#include "radiometry/script_radiance.h"
-
 #include <cmath>
 #include <limits>
 
 #include "radiometry/band_radiance.h"
+#include "radiometry/planck.h"
 #include "support/catch.h"
 #include "support/golden.h"
 

@@ -1,8 +1,7 @@
-#include "radiometry/temperature_table.h"
-
 #include <cmath>
 
 #include "radiometry/band_radiance.h"
+#include "radiometry/radiance_table.h"
 #include "support/catch.h"
 
 namespace temperature_table_test {

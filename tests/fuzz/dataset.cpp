@@ -12,11 +12,10 @@
 #include "dataset/dataset_file.h"
 #include "dataset/exports/export.h"
 #include "dataset/inspect/validate.h"
-#include "dataset/layout.h"
 #include "dataset/run/merge.h"
 #include "fuzz/targets.h"
 #include "io/json/file.h"
-#include "io/label_files/coco_head.h"
+#include "io/label_files/coco.h"
 #include "io/system/sha256.h"
 #include "support/assets.h"
 #if VELDT_REPORT

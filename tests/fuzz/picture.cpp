@@ -3,10 +3,9 @@
 
 #include "fuzz/targets.h"
 #include "io/config/photo_view.h"
-#include "io/image/grey_picture.h"
-#include "io/image/jpeg.h"
 #include "io/image/kelvin_picture.h"
 #include "io/image/picture_module.h"
+#include "io/image/pictures.h"
 
 namespace {
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <set>
 
-#include "dataset/passes/outline.h"
-#include "dataset/plan/plan_checksums.h"
-#include "dataset/plan/plan_folder.h"
-#include "dataset/run/clip_choice.h"
+#include "dataset/outline/outline.h"
+#include "dataset/plan/plan_store.h"
+#include "dataset/plan/planner.h"
+#include "dataset/run/options.h"
 #include "fuzz/accepted.h"
 #include "fuzz/targets.h"
 #include "imaging/budget.h"

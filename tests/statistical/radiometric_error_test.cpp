@@ -1,8 +1,7 @@
-#include "sensor/radiometric_error.h"
-
 #include <cmath>
 #include <string>
 
+#include "sensor/shutter.h"
 #include "support/catch.h"
 #include "support/statistics.h"
 

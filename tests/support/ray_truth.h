@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "scene/lens_distortion.h"
+#include "scene/camera_model.h"
 #include "support/small_scene.h"
 
 /// What rays see, by trying every triangle, in long double and by other formulas than the library's.

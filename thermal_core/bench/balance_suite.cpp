@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/balance.h"
+#include "analysis/balance/balance.h"
 #include "base/rng.h"
 
 namespace thermal {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/frame_types.h"
+#include "analysis/balance/program.h"
 #include "bench/render_suite.h"
 
 namespace thermal {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "imaging/supersample.h"
+#include "imaging/sampling.h"
 #include "scene/camera_geometry.h"
 
 namespace thermal {

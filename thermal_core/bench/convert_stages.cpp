@@ -12,13 +12,13 @@
 #include "base/parallel.h"
 #include "bench/measure.h"
 #include "dataset/clip/annotations.h"
-#include "dataset/clip/tone_record.h"
+#include "dataset/clip/record.h"
 #include "imaging/frame_converter.h"
 #include "imaging/target_contrast.h"
 #include "io/image/png.h"
 #include "io/pass_reader.h"
 #include "io/system/sha256.h"
-#include "io/video/preview_video.h"
+#include "io/video/h264_file.h"
 
 namespace thermal {
 namespace {

@@ -12,7 +12,7 @@
 #include "bench/measure.h"
 #include "bench/sensor_scene.h"
 #include "io/exr/passes_writer.h"
-#include "io/system/temporary_folder.h"
+#include "io/system/temporary.h"
 
 namespace thermal {
 namespace {

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/convert_row.h"
 #include "bench/convert_stages.h"
 #include "scene/material.h"
 

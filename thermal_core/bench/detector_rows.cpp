@@ -6,10 +6,9 @@
 
 #include "base/rng.h"
 #include "bench/sensor_scene.h"
-#include "bench/spectrum.h"
 #include "radiometry/band_radiance.h"
 #include "sensor/housing.h"
-#include "sensor/optics.h"
+#include "sensor/optics/optics.h"
 #include "sensor/streams.h"
 #include "sensor/vector_math.h"
 

@@ -1,9 +1,16 @@
 #include "bench/engine_scenes.h"
 
+#include <algorithm>
 #include <utility>
 
-#include "dataset/plan/planning.h"
+#include "base/error.h"
+#include "bench/measure.h"
+#include "dataset/dataset_file.h"
+#include "dataset/plan/planner.h"
+#include "io/bake/baked_files.h"
+#include "io/exr/passes.h"
 #include "io/json/file.h"
+#include "scene/camera_geometry.h"
 
 namespace thermal {
 namespace {
@@ -70,6 +77,91 @@ std::vector<EngineScene> plan_engine_scenes(const EngineScenesTask& task) {
   scenes.push_back(
       planner.planned("savanna x 10 plants", std::move(dense), {{"oblique", "savanna x 10 plants"}}));
   return scenes;
+}
+
+namespace {
+
+constexpr PassNeeds kNeeds = {.depth = true, .normals = true};  // the planes that Blender renders
+
+double differing_pixels(const Plane<std::uint16_t>& one, const Plane<std::uint16_t>& other) {
+  if (one.size() != other.size()) throw DataError("Blender's frames have another size or lack a plane");
+  double count = 0;
+  for (std::size_t k = 0; k < one.size(); ++k) count += one.pixels()[k] != other.pixels()[k] ? 1 : 0;
+  return count;
+}
+
+void add(double pixels, DifferingPixels& to) {
+  to.mean += pixels / kEngineFrames;
+  to.most = std::max(to.most, pixels);
+}
+
+CameraIntrinsics camera_of(const BakedScene& scene) {
+  Manifest manifest;
+  manifest.camera = scene.camera;
+  manifest.overscan_px = scene.view_margin_px;
+  return pixels_camera(manifest);
+}
+
+}  // namespace
+
+double frame_time_s(const ClipTracer& tracer, std::size_t frames, Passes& out) {
+  tracer.trace(0, kNeeds, out);
+  double sum_s = 0;
+  for (std::size_t frame = 1; frame < frames; ++frame)
+    sum_s += middle_run_s([&] { tracer.trace(frame, kNeeds, out); });
+  return sum_s / static_cast<double>(frames - 1);
+}
+
+EmbreeScene::EmbreeScene(const EngineScene& planned, const Assets& assets)
+    : plan_(planned.plan),
+      assets_(assets),
+      scene_(read_baked_scene(plan_, assets)),
+      caster_(scene_),
+      camera_(camera_of(scene_)) {}
+
+BakedTrack EmbreeScene::track(const std::string& clip) const {
+  return read_baked_track(plan_, clip, scene_, assets_);
+}
+
+std::size_t EmbreeScene::plants() const noexcept {
+  std::size_t plants = 0;
+  for (const BakedPlants& species : scene_.plants) plants += species.mesh.size();
+  return plants;
+}
+
+double EmbreeScene::pixels() const noexcept {
+  return static_cast<double>(camera_.width_px) * static_cast<double>(camera_.height_px);
+}
+
+EmbreeTimes EmbreeScene::times(const std::string& clip, int supersample) const {
+  const BakedTrack frames = track(clip);
+  Passes out;
+  EmbreeTimes times;
+  times.full_s = frame_time_s({caster_, frames, camera_, {.supersample = supersample}}, kEngineFrames, out);
+  times.adaptive_s = times.full_s;
+  if (supersample == 1) return times;
+  const ClipTracer adaptive(caster_, frames, camera_, {.supersample = supersample, .adaptive = true});
+  times.adaptive_s = frame_time_s(adaptive, kEngineFrames, out);
+  times.all_rays_share = 0;
+  for (std::size_t frame = 1; frame < kEngineFrames; ++frame) {
+    adaptive.trace(frame, kNeeds, out);
+    times.all_rays_share += static_cast<double>(out.fine.x_px.size()) / pixels() / (kEngineFrames - 1);
+  }
+  return times;
+}
+
+Differing EmbreeScene::differing(const std::string& clip, const Path& blenders) const {
+  const BakedTrack frames = track(clip);
+  const ClipTracer tracer(caster_, frames, camera_);
+  Passes own;
+  Differing differing{.pixels = pixels(), .object = {}, .material = {}};
+  for (int frame = 0; frame < kEngineFrames; ++frame) {
+    const Passes others = read_passes(blenders / passes_name(frame), {.layer = "Scene"}, {});
+    tracer.trace(static_cast<std::size_t>(frame), {}, own);
+    add(differing_pixels(own.object_index, others.object_index), differing.object);
+    add(differing_pixels(own.material_index, others.material_index), differing.material);
+  }
+  return differing;
 }
 
 }  // namespace thermal

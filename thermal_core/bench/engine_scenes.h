@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "io/assets.h"
 #include "io/system/files.h"
+#include "raycast/ray_caster.h"
+#include "scene/baked_scene.h"
 
 namespace thermal {
 
@@ -34,5 +37,52 @@ struct EngineScenesTask {
 /// Plans the demo, the savanna from three views, and the savanna with up to ten times the plants, without overlaps. The
 /// views follow the group of the config's last clip, so that actors are in the picture.
 [[nodiscard]] std::vector<EngineScene> plan_engine_scenes(const EngineScenesTask& task);
+
+/// Time of the engine `embree` for a frame of passes in memory.
+struct EmbreeTimes {
+  double full_s = 0;
+  double adaptive_s = 0;      ///< that of `full_s` with one ray per pixel
+  double all_rays_share = 1;  ///< of the pixels, with adaptive sampling
+};
+
+/// Pixels that differ from Blender's passes, at one ray per pixel.
+struct DifferingPixels {
+  double mean = 0;
+  double most = 0;
+};
+struct Differing {
+  double pixels = 0;  ///< of a frame
+  DifferingPixels object;
+  DifferingPixels material;
+};
+
+/// A planned config, prepared for the engine `embree`.
+class EmbreeScene {
+ public:
+  EmbreeScene(const EngineScene& planned, const Assets& assets);
+  ~EmbreeScene() = default;
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  [[nodiscard]] EmbreeTimes times(const std::string& clip, int supersample) const;
+  /// Compares all frames with the files in this folder.
+  [[nodiscard]] Differing differing(const std::string& clip, const Path& blenders) const;
+
+  [[nodiscard]] std::size_t plants() const noexcept;
+  [[nodiscard]] double pixels() const noexcept;
+
+ private:
+  [[nodiscard]] BakedTrack track(const std::string& clip) const;
+
+  Path plan_;
+  Assets assets_;
+  BakedScene scene_;
+  RayCaster caster_;
+  CameraIntrinsics camera_;
+};
+
+/// Seconds per frame after the first: mean over the frames of the median of three runs each. Leaves the last frame in
+/// `out`.
+[[nodiscard]] double frame_time_s(const ClipTracer& tracer, std::size_t frames, Passes& out);
 
 }  // namespace thermal

@@ -6,12 +6,10 @@
 #include <fmt/format.h>
 
 #include "base/parallel.h"
-#include "bench/blender_profile.h"
-#include "bench/embree_scene.h"
 #include "bench/engine_scenes.h"
 #include "bench/memory_rows.h"
-#include "bench/peak_memory.h"
-#include "io/system/temporary_folder.h"
+#include "bench/render_suite.h"
+#include "io/system/temporary.h"
 
 namespace thermal {
 namespace {

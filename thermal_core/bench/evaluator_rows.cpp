@@ -3,9 +3,8 @@
 #include <cmath>
 #include <functional>
 
+#include "radiometry/planck.h"
 #include "radiometry/radiance_table.h"
-#include "radiometry/script_radiance.h"
-#include "radiometry/temperature_table.h"
 
 namespace thermal {
 namespace {

@@ -10,10 +10,9 @@
 
 #include "base/rng.h"
 #include "bench/sensor_scene.h"
-#include "bench/spectrum.h"
 #include "sensor/flicker_noise.h"
-#include "sensor/native_rate.h"
 #include "sensor/streams.h"
+#include "sensor/thermal_camera.h"
 #include "sensor/vector_math.h"
 
 namespace thermal {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "bench/stage_row.h"
+#include "bench/sensor_scene.h"
 
 namespace thermal {
 

@@ -10,11 +10,10 @@
 
 #include "base/parallel.h"
 #include "bench/measure.h"
-#include "dataset/plan/ground_planning.h"
-#include "dataset/plan/planning.h"
+#include "dataset/plan/planner.h"
 #include "io/bake/baked_files.h"
 #include "io/json/file.h"
-#include "io/system/temporary_folder.h"
+#include "io/system/temporary.h"
 #include "raycast/ground_light.h"
 #include "raycast/ray_caster.h"
 #include "scene/camera_geometry.h"

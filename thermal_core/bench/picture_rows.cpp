@@ -5,12 +5,11 @@
 #include <functional>
 
 #include "bench/reference_agc.h"
-#include "bench/reference_clahe.h"
 #include "bench/sensor_scene.h"
 #include "radiometry/band_radiance.h"
-#include "radiometry/temperature_table.h"
-#include "sensor/psf.h"
-#include "sensor/round_kernel.h"
+#include "radiometry/radiance_table.h"
+#include "sensor/optics/psf.h"
+#include "sensor/optics/round_kernel.h"
 
 namespace thermal {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <sstream>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -10,10 +11,23 @@
 
 #include "base/error.h"
 #include "dataset/clip/record.h"
-#include "dataset/frame_lines.h"
 #include "io/json/entry.h"
 
 namespace thermal {
+
+void for_frame_lines(const Path& file, const std::function<void(const Json& frame)>& take) {
+  std::istringstream lines(read_file(file));
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    try {
+      take(Json::parse(line));
+    } catch (const Json::exception& error) {
+      throw DataError(fmt::format("{}:{}: not a frame of a clip: {}", file.string(), number, error.what()));
+    }
+  }
+}
+
 namespace {
 
 constexpr std::uint64_t kMostMaskSidePx = 1'000'000'000;

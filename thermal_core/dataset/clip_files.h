@@ -4,8 +4,13 @@
 #include <string>
 
 #include "io/json/file.h"
+#include "io/system/files.h"
 
 namespace thermal {
+
+/// Calls `take` with each line of a clip's frames.jsonl. DataError with file and line if one is not JSON, or lacks a
+/// value that `take` reads; IoError if the file cannot be read.
+void for_frame_lines(const Path& file, const std::function<void(const Json& frame)>& take);
 
 /// A clip's folder in an untrusted dataset. All functions: DataError with file, location and value for departures from
 /// DATASET.md; IoError if a file cannot be read, is not regular, or is a link.

@@ -3,14 +3,24 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <string>
+
+#include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/relative_name.h"
-#include "dataset/layout.h"
 #include "io/json/entry.h"
 
 namespace thermal {
+
+std::string frame_name(int frame) { return fmt::format("{:06}.png", frame); }
+
+std::string passes_name(int frame) { return fmt::format("{:06}.exr", frame); }
+
+std::string ir16_file(const std::string& ir8_file) {
+  const Path path(ir8_file);
+  return (path.parent_path().parent_path() / "ir16" / path.filename()).string();
+}
+
 namespace {
 
 /// Reads a file that may be damaged.

@@ -1,16 +1,37 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "dataset/clip/record.h"
-#include "dataset/layout.h"
+#include "dataset/dataset_file.h"
 #include "io/config/config.h"
+#include "io/json/file.h"
+#include "io/system/temporary.h"
 
 namespace thermal {
+
+/// Labels of one clip of a dataset.
+struct ClipLabels {
+  std::string clip;
+  std::string source;  ///< file, for messages
+  /// Reads its document like parse_json_elements(); may be called twice.
+  std::function<void(const TakeElement& take)> read;
+};
+
+/// Joins clips' documents into the dataset's, on one line: ids are renumbered, file names become relative to the
+/// dataset's folder, a category keeps its id. `spool` holds annotations while images are written.
+void join_annotations(const std::string& dataset, const std::vector<ClipLabels>& clips, Spool spool,
+                      const TakeText& take);
+
+/// Writes a dataset's annotations.json: the labels of these complete clips, in this order. In constant memory. Returns
+/// the SHA-256 of the file. IoError with a file that cannot be read or written, TryAgainError if the disk is full.
+std::string write_joined_annotations(const Layout& layout, const std::string& dataset,
+                                     const std::vector<std::string>& clips);
 
 /// Share of a plane's values in a clip that no term can use.
 struct UnusableShare {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "heat/body/body_heat.h"
-#include "heat/body/tissue.h"
+#include "heat/body/skin.h"
 #include "heat/body/vehicle_heat.h"
 #include "imaging/surfaces.h"
 #include "scene/manifest.h"

@@ -43,8 +43,8 @@ double spread(std::vector<Weighted> values) {
 class MaterialModel {
  public:
   /// @param air  in the sensor's response; must outlive this object
-  MaterialModel(const Material& material, const SceneOutline::Conditions& viewing, const SpectralResponse& response,
-                const BandAir& air)
+  MaterialModel(const Material& material, const SceneOutline::Conditions& viewing,
+                const SpectralResponse& response, const BandAir& air)
       : material_(material),
         weather_(viewing.weather),
         temperature_k_(viewing.temperature_k(material, "")),

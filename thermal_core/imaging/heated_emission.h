@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "imaging/ground_temperatures.h"
-#include "imaging/ground_warp.h"
+#include "imaging/ground/temperatures.h"
+#include "imaging/ground/texture.h"
+#include "imaging/ground/warm_spots.h"
 #include "imaging/row_terms.h"
-#include "imaging/warm_spots.h"
 #include "radiometry/radiance_table.h"
 #include "scene/variation_field.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "heat/body/body_heat.h"
-#include "heat/surface/leaf_layer.h"
-#include "imaging/ground_mixture.h"
+#include "heat/surface/surface_balance.h"
+#include "imaging/ground/mixture.h"
 
 namespace thermal {
 namespace {

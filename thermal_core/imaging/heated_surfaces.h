@@ -1,14 +1,24 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "heat/surface/heat_of_day.h"
 #include "imaging/actor_states.h"
-#include "imaging/heat_settings.h"
 #include "imaging/heated_emission.h"
 #include "imaging/surfaces.h"
+#include "scene/ground_maps.h"
 #include "scene/weather.h"
 
 namespace thermal {
+
+/// Inputs of temperatures by the heat balance: the weather's day, and maps of the ground.
+struct HeatSettings {
+  std::shared_ptr<const HeatOfDay> day;
+  std::shared_ptr<const GroundMaps> ground;  ///< null: open level ground everywhere
+
+  [[nodiscard]] bool operator==(const HeatSettings&) const = default;
+};
 
 /// Inputs that the passes of a scene provide, and terms that it keeps.
 struct SceneHeatTerms {

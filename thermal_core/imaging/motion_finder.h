@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scene/camera_geometry.h"
-#include "scene/lens_distortion.h"
+#include "scene/camera_model.h"
 #include "scene/manifest.h"
 #include "scene/passes.h"
 #include "sensor/smear.h"

@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "base/polynomial.h"
+#include "base/interpolation.h"
 #include "imaging/row_kernels.h"
 
 namespace thermal {

@@ -12,8 +12,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "heat/body/fire.h"
-#include "heat/body/warm_ground.h"
-#include "heat/weather/sun_memory.h"
+#include "heat/weather/forcing.h"
 
 namespace thermal {
 namespace {
@@ -225,8 +224,10 @@ class GroundOfClip {
     GroundMoment ground = {.parts = {}, .sunlit = sunlit, .cold_pool_k = cold_pool_k(heat.forcing)};
     for (const std::string& name : ground_part_names(maps_.covers)) {
       const MaterialMoment& by_exposure = heat_of(heat, name);
-      const GroundAppearance appearance = appearance_of_(name, by_exposure.temperature_k({.moisture = heat.ground_moisture}));
-      ground.parts.push_back({.heat = &by_exposure, .shift = appearance.shift, .variation_k = appearance.variation_k});
+      const GroundAppearance appearance =
+          appearance_of_(name, by_exposure.temperature_k({.moisture = heat.ground_moisture}));
+      ground.parts.push_back(
+          {.heat = &by_exposure, .shift = appearance.shift, .variation_k = appearance.variation_k});
     }
     return ground;
   }
@@ -249,7 +250,8 @@ double hours_of(const Manifest& manifest) {
 
 SceneHeat heat_of_scene(const std::vector<Surface>& surfaces, const std::vector<ActorState>& states,
                         const HeatSettings& settings, const Weather& weather, const Manifest& manifest,
-                        const SceneHeatTerms& terms, const GroundAppearanceOf& appearance_of, std::uint32_t seed) {
+                        const SceneHeatTerms& terms, const GroundAppearanceOf& appearance_of,
+                        std::uint32_t seed) {
   const auto moment_at = [&](double later_h) {
     return Moment{later_h, std::make_shared<const HeatedSurfaces>(surfaces, states, settings, weather,
                                                                   3600 * later_h, terms)};

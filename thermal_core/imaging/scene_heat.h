@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "imaging/actor_states.h"
-#include "imaging/ground_shift.h"
-#include "imaging/heat_settings.h"
+#include "imaging/ground/temperatures.h"
 #include "imaging/heated_emission.h"
 #include "imaging/heated_surfaces.h"
 #include "imaging/surfaces.h"

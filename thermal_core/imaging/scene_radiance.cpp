@@ -11,7 +11,7 @@
 #include "base/parallel.h"
 #include "heat/weather/air_profile.h"
 #include "imaging/actor_states.h"
-#include "imaging/pixel_quarters.h"
+#include "imaging/sampling.h"
 #include "scene/camera_geometry.h"
 
 namespace thermal {
@@ -160,7 +160,7 @@ void SceneRadiance::add_heat(const Manifest& manifest, const MaterialLibrary& ma
   if (by_place) {
     const Air& air = settings.weather.air;
     appearance.emplace(band_of(settings.heat->ground->covers.kinds.front()), BandAir(air, settings.response),
-                 air.temperature_k, terms.sky);
+                       air.temperature_k, terms.sky);
   }
   const auto appearance_of = [&](const std::string& name, double temperature_k) -> GroundAppearance {
     return {.shift = appearance->shift(band_of(name), temperature_k),

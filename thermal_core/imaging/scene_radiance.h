@@ -7,16 +7,15 @@
 #include <span>
 #include <vector>
 
-#include "imaging/heat_settings.h"
+#include "imaging/heated_surfaces.h"
 #include "imaging/pass_checks.h"
 #include "imaging/row_terms.h"
 #include "imaging/scene_heat.h"
 #include "imaging/surfaces.h"
 #include "radiometry/spectral_response.h"
-#include "scene/season.h"
 #include "scene/terms.h"
 #include "scene/weather.h"
-#include "sensor/subpixel_detail.h"
+#include "sensor/optics/round_kernel.h"
 
 namespace thermal {
 

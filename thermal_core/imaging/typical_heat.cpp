@@ -9,7 +9,7 @@
 #include "heat/body/fire.h"
 #include "heat/surface/heat_of_day.h"
 #include "heat/surface/heat_report.h"
-#include "heat/surface/leaf_layer.h"
+#include "heat/surface/surface_balance.h"
 #include "heat/weather/air_profile.h"
 #include "imaging/actor_states.h"
 #include "imaging/heated_surfaces.h"
@@ -186,7 +186,7 @@ void add_shifts(const Columns& columns, const Material& material, const Shares& 
 }  // namespace
 
 void heat_conditions(const std::vector<SceneOutline::Cover>& covers, const MaterialLibrary& library,
-                SceneOutline::Conditions& viewing) {
+                     SceneOutline::Conditions& viewing) {
   std::vector<const Material*> materials;
   for (const SceneOutline::Cover& cover : covers) materials.push_back(cover.material);
   viewing.heated_k = open_temperatures_k(materials, library, viewing.weather);
@@ -195,9 +195,9 @@ void heat_conditions(const std::vector<SceneOutline::Cover>& covers, const Mater
   const BodyMoment moment = open_moment(viewing.weather, viewing.heated_k);
   if (viewing.weather.inversion_by_balance && !viewing.view_directions.empty()) {
     const SceneOutline::ViewDirection& direction = viewing.view_directions.front();
-    viewing.weather.air.inversion_k = std::min(
-        kLargestInversionK,
-        StableAir(moment.around.forcing, moment.around.ground_k).warmer_k(direction.range_m * direction.ground_cosine));
+    viewing.weather.air.inversion_k =
+        std::min(kLargestInversionK, StableAir(moment.around.forcing, moment.around.ground_k)
+                                         .warmer_k(direction.range_m * direction.ground_cosine));
   }
   for (const Material* material : materials) {
     if (const BodyHeat* body = material->body_heat_of("")) {

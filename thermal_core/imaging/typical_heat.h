@@ -14,7 +14,7 @@ namespace thermal {
 /// material and part ("" is the whole); leaves are mid-crown, actors stand upright. Also the shifts by exposure: shade
 /// of crowns, moist shores, depth in a crown; slopes and sides.
 void heat_conditions(const std::vector<SceneOutline::Cover>& covers, const MaterialLibrary& library,
-                SceneOutline::Conditions& viewing);
+                     SceneOutline::Conditions& viewing);
 
 /// Heat properties of all materials of a library that have them.
 [[nodiscard]] std::map<std::string, MaterialHeat> heat_of_materials(const MaterialLibrary& materials);

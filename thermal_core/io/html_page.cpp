@@ -3,7 +3,6 @@
 #include <cassert>
 #include <map>
 
-#include "io/system/base64.h"
 #include "io/system/sha256.h"
 
 namespace thermal {

@@ -8,6 +8,11 @@
 
 namespace thermal {
 
+/// Limits on what a file of passes may claim, checked before memory is allocated for it.
+struct ReadLimits {
+  std::int64_t pixels = 256'000'000;  ///< of a plane
+};
+
 /// Pixels of an index channel before conversion to indices.
 struct IndexPixels {
   Plane<float> floats;

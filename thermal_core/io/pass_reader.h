@@ -4,7 +4,6 @@
 
 #include "io/pass_buffer.h"
 #include "io/system/files.h"
-#include "io/system/read_limits.h"
 #include "scene/manifest.h"
 #include "scene/passes.h"
 

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -125,5 +127,17 @@ void assign_size_classes(LabelSet& set);
 enum class Kind { animal, human, vehicle };
 /// The kind of a category.
 [[nodiscard]] Kind kind_of(const std::string& category) noexcept;
+
+/// Ids of the categories a dataset may label. Known categories have the same id in every dataset, so that datasets
+/// can be joined; others follow in alphabetical order. Ids start at 1.
+[[nodiscard]] std::map<std::string, int> number_categories(const std::set<std::string>& used);
+
+/// One detection by a detector in one picture.
+struct Detection {
+  std::size_t image = 0;     ///< index into LabelSet::images
+  std::size_t category = 0;  ///< index into LabelSet::categories
+  LabelBox box;              ///< width and height 0 or more; may extend beyond the picture
+  double score = 0;          ///< confidence; any finite number, higher is more confident
+};
 
 }  // namespace thermal

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/index_plane.h"
-#include "io/system/read_limits.h"
+#include "base/image.h"
+#include "io/pass_buffer.h"
 
 namespace thermal::python {
 namespace {

@@ -7,7 +7,7 @@
 #include "dataset/dataset_file.h"
 #include "io/image/png.h"
 #include "io/json/file.h"
-#include "io/label_files/coco_head.h"
+#include "io/label_files/coco.h"
 #include "python/arrays.h"
 #include "python/parts.h"
 

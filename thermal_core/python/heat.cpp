@@ -10,12 +10,11 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "heat/surface/heat_of_day.h"
-#include "heat/weather/day_weather.h"
+#include "heat/weather/forcing.h"
 #include "imaging/typical_heat.h"
 #include "io/config/materials.h"
 #include "python/arrays.h"
 #include "python/parts.h"
-#include "python/sections.h"
 
 namespace thermal::python {
 namespace {

@@ -6,7 +6,7 @@
 #include <pybind11/stl.h>
 
 #include "base/error.h"
-#include "io/system/read_limits.h"
+#include "io/pass_buffer.h"
 #include "labels/instances.h"
 #include "labels/rle.h"
 #include "python/arrays.h"

@@ -10,7 +10,7 @@
 #include "base/rng.h"
 #include "io/assets.h"
 #include "io/config/distribution.h"
-#include "io/config/video.h"
+#include "io/config/sensor.h"
 #include "io/json/schema.h"
 #include "python/arrays.h"
 #include "python/parts.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/ranges.h"
+#include "base/error.h"
 
 namespace thermal {
 namespace {

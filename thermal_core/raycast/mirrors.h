@@ -1,12 +1,20 @@
 #pragma once
 
+#include <cstddef>
 #include <list>
 
-#include "raycast/seen_triangles.h"
-#include "raycast/shot.h"
+#include "raycast/first_hit.h"
+#include "raycast/scene_accelerator.h"
 #include "raycast/sight.h"
+#include "scene/passes.h"
 
 namespace thermal {
+
+/// Sets planes to this size, mirroring sky alone. Memory is reused.
+void set_to_sky(Mirrored<Plane>& mirrored, int width_px, int height_px);
+
+/// The same for lists of samples.
+void set_to_sky(Mirrored<SampleList>& mirrored, std::size_t samples);
 
 /// The view mirrored in level water at a height: as far below the water as the view is above it.
 [[nodiscard]] View mirrored(const View& view, double height_m) noexcept;

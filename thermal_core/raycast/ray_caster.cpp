@@ -4,9 +4,9 @@
 
 #include "raycast/first_hit.h"
 #include "raycast/frame_tracer.h"
-#include "raycast/mirrored_sky.h"
-#include "raycast/scene_accelerator.h"
+#include "raycast/mirrors.h"
 #include "raycast/refinement.h"
+#include "raycast/scene_accelerator.h"
 #include "scene/camera_geometry.h"
 
 namespace thermal {

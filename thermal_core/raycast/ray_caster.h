@@ -3,9 +3,8 @@
 #include <cstddef>
 #include <memory>
 
-#include "scene/baked_moment.h"
 #include "scene/baked_scene.h"
-#include "scene/lens_distortion.h"
+#include "scene/camera_model.h"
 #include "scene/passes.h"
 
 namespace thermal {

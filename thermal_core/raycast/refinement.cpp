@@ -41,7 +41,8 @@ Range pixels_at(const LensRange& directions, const PixelRays& rays) {
 }
 
 /// The pixels that a piece may cover; all if unknown.
-Range pixels_of(const Piece& piece, const SceneAccelerator& accelerator, const View& view, const PixelRays& rays) {
+Range pixels_of(const Piece& piece, const SceneAccelerator& accelerator, const View& view,
+                const PixelRays& rays) {
   constexpr double kLeastDepthM = 1e-3;
   const MeshBox& box = accelerator.box(piece.mesh);
   LensRange directions;
@@ -98,8 +99,8 @@ void mark_pairs(const Passes& passes, int row, int other, int shift, Plane<std::
 
 }  // namespace
 
-Plane<std::uint8_t> pixels_near(const std::vector<Piece>& pieces, const SceneAccelerator& accelerator, const View& view,
-                                const PixelRays& rays) {
+Plane<std::uint8_t> pixels_near(const std::vector<Piece>& pieces, const SceneAccelerator& accelerator,
+                                const View& view, const PixelRays& rays) {
   Plane<std::uint8_t> near(rays.width_px(), rays.height_px());
   for (const Piece& piece : pieces) {
     const Range range = pixels_of(piece, accelerator, view, rays);
@@ -109,7 +110,8 @@ Plane<std::uint8_t> pixels_near(const std::vector<Piece>& pieces, const SceneAcc
   return near;
 }
 
-bool may_see(const std::vector<Piece>& pieces, const SceneAccelerator& accelerator, const View& view, const PixelRays& rays) {
+bool may_see(const std::vector<Piece>& pieces, const SceneAccelerator& accelerator, const View& view,
+             const PixelRays& rays) {
   return std::ranges::any_of(
       pieces, [&](const Piece& piece) { return !pixels_of(piece, accelerator, view, rays).is_empty(); });
 }

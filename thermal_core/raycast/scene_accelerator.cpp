@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "raycast/vectors.h"
 #include "raycast/vertex_normals.h"
 
 namespace thermal {

@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "heat/weather/sun.h"
+#include "scene/baked_scene.h"
 
 namespace thermal {
 
@@ -61,5 +63,27 @@ struct GroundMaps {
 [[nodiscard]] inline double cell_middle_m(double size_m, std::size_t cells, std::size_t number) noexcept {
   return size_m * ((static_cast<double>(number) + 0.5) / static_cast<double>(cells) - 0.5);
 }
+
+/// The highest surfaces above the middles of cells x cells squares, [row of y, column of x], from south and west; minus
+/// infinity where there is none.
+struct TopHeights {
+  std::vector<float> ground_m;  ///< of ground and waters
+  std::vector<float> plants_m;
+};
+
+/// Of the square of size_m around the origin, by projecting every triangle: exact to single precision, without gaps
+/// between triangles that share an edge. The same bits for any number of threads.
+[[nodiscard]] TopHeights top_heights(const BakedScene& scene, double size_m, std::size_t cells);
+
+/// How moist the ground is in the middles of cells x cells squares, [row of y, column of x], from south and west; 255
+/// is saturated. The larger of two terms, both estimates: 1 in water and at its shore, falling by a factor of e every 4
+/// m outwards; and up to 0.5 in hollows, in proportion to the rise of the land on two opposite sides, 30 m away, up to
+/// 2 m. The foot of a slope is no hollow. `ground` has at least one cell.
+[[nodiscard]] std::vector<std::uint8_t> ground_moisture(const BakedGround& ground, std::size_t cells);
+
+/// Depth of the water in the middles of the same squares [m], 0 on land: height of the highest surface, ground or
+/// water, above the ground. Empty without water.
+[[nodiscard]] std::vector<float> water_depths_m(const BakedGround& ground, std::span<const float> highest_m,
+                                                std::size_t cells);
 
 }  // namespace thermal

@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "base/index_plane.h"
+#include "base/image.h"
 #include "heat/body/vehicle_heat.h"
-#include "scene/camera_intrinsics.h"
-#include "scene/lens_distortion.h"
+#include "scene/camera_model.h"
 
 namespace thermal {
 

@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "base/plausible.h"
-#include "base/ranges.h"
 #include "base/text.h"
 
 namespace thermal {

@@ -8,7 +8,6 @@
 #include "heat/body/body_heat.h"
 #include "heat/surface/material_heat.h"
 #include "radiometry/emissivity.h"
-#include "scene/season.h"
 #include "scene/weather.h"
 
 namespace thermal {

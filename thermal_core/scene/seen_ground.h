@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scene/baked_scene.h"
-#include "scene/camera_intrinsics.h"
+#include "scene/camera_model.h"
 #include "scene/ground_maps.h"
 
 namespace thermal {

@@ -1,12 +1,25 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
-#include "heat/weather/day_weather.h"
+#include "heat/weather/forcing.h"
 #include "radiometry/atmosphere.h"
-#include "scene/season.h"
 
 namespace thermal {
+
+/// The two nights of the published Table 1: air at 273 K in winter, at 293 K in summer.
+enum class Season { winter, summer };
+
+/// "summer" is summer; anything else is winter.
+[[nodiscard]] constexpr Season season_of(std::string_view name) noexcept {
+  return name == "summer" ? Season::summer : Season::winter;
+}
+
+/// Its name in configs: "winter" or "summer".
+[[nodiscard]] constexpr std::string_view season_name(Season season) noexcept {
+  return season == Season::winter ? "winter" : "summer";
+}
 
 /// Conditions of a clip, for the whole scene.
 struct Weather {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/between_nodes.h"
 #include "base/clones.h"
+#include "base/interpolation.h"
 #include "base/parallel.h"
-#include "sensor/psf.h"
+#include "sensor/optics/psf.h"
 #include "sensor/streams.h"
 #include "sensor/vector_math.h"
 

@@ -8,7 +8,7 @@
 
 #include "base/image.h"
 #include "base/rng.h"
-#include "sensor/convolution.h"
+#include "sensor/optics/convolution.h"
 #include "sensor/smear.h"
 
 namespace thermal {

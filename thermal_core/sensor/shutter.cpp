@@ -1,11 +1,6 @@
 #include "sensor/shutter.h"
 
 #include <algorithm>
-#include <cmath>
-#include <span>
-
-#include "base/rng.h"
-#include "sensor/streams.h"
 
 namespace thermal {
 

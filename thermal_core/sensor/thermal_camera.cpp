@@ -1,9 +1,7 @@
 #include "sensor/thermal_camera.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -11,7 +9,7 @@
 #include "base/parallel.h"
 #include "base/rng.h"
 #include "radiometry/band_radiance.h"
-#include "radiometry/script_radiance.h"
+#include "radiometry/planck.h"
 #include "sensor/streams.h"
 #include "sensor/vector_math.h"
 
@@ -232,7 +230,8 @@ double ThermalCamera::noise_w_m2_sr(int x_px, int y_px) const {
                     gain_w_m2_sr_);
 }
 
-void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out, const TakeSignal& take_signal) {
+void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out,
+                           const TakeSignal& take_signal) {
   expose(radiance_w_m2_sr, {}, {}, out, take_signal);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -8,24 +10,37 @@
 #include <vector>
 
 #include "base/image.h"
-#include "radiometry/temperature_table.h"
+#include "radiometry/radiance_table.h"
 #include "sensor/agc.h"
 #include "sensor/bad_pixels.h"
-#include "sensor/detail.h"
 #include "sensor/flicker_noise.h"
 #include "sensor/housing.h"
-#include "sensor/native_rate.h"
-#include "sensor/optics.h"
+#include "sensor/optics/optics.h"
+#include "sensor/optics/round_kernel.h"
 #include "sensor/pattern_noise.h"
 #include "sensor/processing.h"
-#include "sensor/radiometric_error.h"
 #include "sensor/sensor_parameters.h"
 #include "sensor/shutter.h"
 #include "sensor/smear.h"
-#include "sensor/subpixel_detail.h"
-#include "sensor/temporal_filter.h"
 
 namespace thermal {
+
+/// The frames that a sensor makes, every `step`-th of which is a frame of the video.
+struct NativeRate {
+  std::uint32_t step = 1;
+  double rate_hz = 0;  ///< step times the video's rate
+
+  /// @param native_rate_hz  the sensor's; 0: the video's. The step is the nearest one, so that the rate may differ:
+  ///   a video of 9 Hz from a sensor of 60 Hz is every seventh frame at 63 Hz.
+  [[nodiscard]] static NativeRate of(double native_rate_hz, double video_rate_hz) noexcept {
+    constexpr double kRounding = 1e-12;  // of a quotient of decimals, or of a rate such as 60 / 7
+    constexpr double kMostFrames = 1e6;
+    const double step = std::round(std::clamp(native_rate_hz / video_rate_hz, 1.0, kMostFrames));
+    const double rate_hz = step * video_rate_hz;
+    const bool equal = std::abs(rate_hz - native_rate_hz) <= kRounding * native_rate_hz;
+    return {.step = static_cast<std::uint32_t>(step), .rate_hz = equal ? native_rate_hz : rate_hz};
+  }
+};
 
 /// In-band radiance [W m^-2 sr^-1] of a blackbody at a temperature [K], by a sensor's model and response.
 [[nodiscard]] std::function<double(double temperature_k)> radiance_of(RadianceModel model,

@@ -5,7 +5,7 @@
 
 #include "accuracy/heat/heat_cases.h"
 #include "base/parallel.h"
-#include "heat/weather/sun_memory.h"
+#include "heat/weather/forcing.h"
 #include "support/catch.h"
 
 namespace heat_of_day_test {
@@ -182,8 +182,8 @@ TEST_CASE("A sheet in the sun is fitted within 0.6 K in all directions, at any h
     const SurfaceDay exact = day_of(steel, soil, exposure, {forcing, open.surface_k}, kCoarse);
     for (const double hour : {8.0, 10.0, 12.0, 14.0, 16.0}) {
       CAPTURE(k, hour);
-      CHECK(std::abs(day.at(hour, {"steel"}).materials.at("steel").temperature_k(exposure) - exact.at_k(hour)) <
-            0.6);
+      CHECK(std::abs(day.at(hour, {"steel"}).materials.at("steel").temperature_k(exposure) -
+                     exact.at_k(hour)) < 0.6);
     }
   }
 }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "heat/surface/exchange.h"
+#include "heat/surface/surface_balance.h"
 #include "support/catch.h"
 
 namespace humid_air_test {

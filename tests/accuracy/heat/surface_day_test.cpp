@@ -3,8 +3,7 @@
 #include <vector>
 
 #include "accuracy/heat/heat_cases.h"
-#include "heat/surface/exchange.h"
-#include "heat/surface/leaf_layer.h"
+#include "heat/surface/surface_balance.h"
 #include "heat/weather/humid_air.h"
 #include "support/catch.h"
 

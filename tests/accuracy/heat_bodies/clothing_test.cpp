@@ -1,11 +1,10 @@
-#include "heat/body/clothing.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "accuracy/heat_bodies/nights.h"
 #include "base/error.h"
+#include "heat/body/skin.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 

@@ -1,10 +1,9 @@
-#include "heat/body/coat.h"
-
 #include <cmath>
 #include <limits>
 
 #include "accuracy/heat_bodies/nights.h"
 #include "base/error.h"
+#include "heat/body/skin.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 

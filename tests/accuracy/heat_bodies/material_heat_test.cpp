@@ -11,7 +11,7 @@
 #include "heat/body/body_heat.h"
 #include "heat/surface/heat_of_day.h"
 #include "heat/weather/air_profile.h"
-#include "io/config/body_heat.h"
+#include "io/config/materials.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 

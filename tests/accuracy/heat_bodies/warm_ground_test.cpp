@@ -1,11 +1,10 @@
-#include "heat/body/warm_ground.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "base/error.h"
+#include "heat/body/fire.h"
 #include "heat/surface/conduction.h"
 #include "support/catch.h"
 #include "support/message_of.h"

@@ -1,11 +1,10 @@
 // Passes that are sampled where it matters give what passes with all samples give.
 
-#include "scene/fine_samples.h"
-
 #include "accuracy/physical/chain_scene.h"
 #include "base/error.h"
 #include "imaging/frame_converter.h"
-#include "imaging/pixel_quarters.h"
+#include "imaging/sampling.h"
+#include "scene/passes.h"
 #include "support/catch.h"
 
 namespace fine_samples_test {

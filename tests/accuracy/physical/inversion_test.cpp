@@ -108,8 +108,8 @@ TEST_CASE("An inversion of 4 K is worth 57 to 149 mK, which the budget states") 
   const auto shift = [&](Air air, double range_m) {
     Weather weather;
     weather.air = air;
-    return shift_of(chain_scene::library().find("grass", "test"), {.weather = weather, .view_directions = {}}, range_m,
-                    band);
+    return shift_of(chain_scene::library().find("grass", "test"), {.weather = weather, .view_directions = {}},
+                    range_m, band);
   };
   const MaterialShift near = shift(kNight, 61);
   const MaterialShift far = shift(kSummerNight, 122);

@@ -1,6 +1,6 @@
 #include "accuracy/physical/assets.h"
 #include "base/error.h"
-#include "dataset/passes/outline.h"
+#include "dataset/outline/outline.h"
 #include "io/config/config.h"
 #include "support/assets.h"
 #include "support/catch.h"

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "accuracy/physical/assets.h"
-#include "radiometry/temperature_table.h"
 #include "support/catch.h"
 
 namespace radiance_table_test {

@@ -1,11 +1,9 @@
-#include "imaging/supersample.h"
-
 #include <cmath>
 #include <limits>
 
 #include "accuracy/physical/chain_scene.h"
 #include "imaging/frame_converter.h"
-#include "imaging/pixel_quarters.h"
+#include "imaging/sampling.h"
 #include "support/catch.h"
 
 namespace supersample_test {

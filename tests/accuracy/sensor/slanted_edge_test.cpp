@@ -3,8 +3,8 @@
 #include <numbers>
 #include <vector>
 
-#include "sensor/optics.h"
-#include "sensor/psf.h"
+#include "sensor/optics/optics.h"
+#include "sensor/optics/psf.h"
 #include "support/catch.h"
 
 namespace slanted_edge_test {

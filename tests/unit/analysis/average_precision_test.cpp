@@ -1,5 +1,4 @@
-#include "analysis/average_precision.h"
-
+#include "analysis/evaluate.h"
 #include "support/catch.h"
 
 namespace average_precision_test {

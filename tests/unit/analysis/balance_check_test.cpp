@@ -1,8 +1,7 @@
-#include "analysis/balance_check.h"
-
 #include <cmath>
 
-#include "analysis/balance.h"
+#include "analysis/balance/balance.h"
+#include "analysis/balance/program.h"
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"

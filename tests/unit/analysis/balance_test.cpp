@@ -1,4 +1,4 @@
-#include "analysis/balance.h"
+#include "analysis/balance/balance.h"
 
 #include <algorithm>
 #include <limits>
@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/balance_check.h"
-#include "analysis/nearest_bounds.h"
+#include "analysis/balance/program.h"
 #include "base/error.h"
 #include "base/rng.h"
 #include "support/catch.h"

@@ -1,5 +1,4 @@
-#include "analysis/frame_types.h"
-
+#include "analysis/balance/program.h"
 #include "support/catch.h"
 
 namespace frame_types_test {

@@ -1,7 +1,6 @@
-#include "analysis/matching.h"
-
 #include <limits>
 
+#include "analysis/evaluate.h"
 #include "support/catch.h"
 
 namespace matching_test {

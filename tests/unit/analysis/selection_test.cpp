@@ -1,4 +1,4 @@
-#include "analysis/selection.h"
+#include "analysis/balance/selection.h"
 
 #include <algorithm>
 #include <array>

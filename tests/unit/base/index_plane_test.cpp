@@ -1,10 +1,9 @@
-#include "base/index_plane.h"
-
 #include <array>
 #include <limits>
 #include <vector>
 
 #include "base/error.h"
+#include "base/image.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 

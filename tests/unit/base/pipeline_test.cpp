@@ -1,5 +1,3 @@
-#include "base/pipeline.h"
-
 #include <algorithm>
 #include <array>
 #include <atomic>

@@ -1,5 +1,4 @@
-#include "base/printable.h"
-
+#include "base/text.h"
 #include "support/catch.h"
 
 namespace printable_test {

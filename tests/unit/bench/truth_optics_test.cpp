@@ -1,9 +1,8 @@
-#include "bench/truth_optics.h"
-
 #include <cmath>
 #include <complex>
 #include <numbers>
 
+#include "bench/truth/optics.h"
 #include "support/catch.h"
 #include "support/golden.h"
 

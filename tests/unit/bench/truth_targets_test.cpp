@@ -1,8 +1,7 @@
-#include "bench/truth_targets.h"
-
 #include <cmath>
 #include <numbers>
 
+#include "bench/truth/targets.h"
 #include "support/catch.h"
 
 namespace truth_targets_test {

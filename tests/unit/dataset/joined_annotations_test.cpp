@@ -1,6 +1,5 @@
-#include "dataset/joined_annotations.h"
-
 #include "base/error.h"
+#include "dataset/dataset_index.h"
 #include "io/system/sha256.h"
 #include "support/catch.h"
 #include "support/message_of.h"

@@ -1,8 +1,7 @@
-#include "imaging/actor_box.h"
-
 #include <cmath>
 #include <numbers>
 
+#include "imaging/actor_labeller.h"
 #include "support/catch.h"
 
 namespace actor_box_test {

@@ -1,5 +1,3 @@
-#include "imaging/coverage_radiance.h"
-
 #include <algorithm>
 #include <array>
 

@@ -1,10 +1,9 @@
-#include "imaging/cut_covers.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include "imaging/ground/mixture.h"
 #include "support/catch.h"
 
 namespace cut_covers_test {

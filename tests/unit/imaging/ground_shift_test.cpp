@@ -1,7 +1,6 @@
-#include "imaging/ground_shift.h"
-
 #include <cmath>
 
+#include "imaging/ground/temperatures.h"
 #include "radiometry/spectral_response.h"
 #include "support/catch.h"
 

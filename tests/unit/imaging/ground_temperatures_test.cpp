@@ -1,5 +1,3 @@
-#include "imaging/ground_temperatures.h"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "imaging/ground_noise.h"
-#include "imaging/ground_window.h"
+#include "imaging/ground/noise.h"
+#include "imaging/ground/temperatures.h"
 #include "imaging/heated_emission.h"
 #include "support/catch.h"
 

@@ -1,9 +1,8 @@
-#include "imaging/ground_warp.h"
-
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "imaging/ground/texture.h"
 #include "support/catch.h"
 
 namespace ground_warp_test {

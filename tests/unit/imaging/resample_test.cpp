@@ -1,9 +1,8 @@
-#include "imaging/resample.h"
-
 #include <cmath>
 #include <limits>
 
 #include "base/parallel.h"
+#include "imaging/sampling.h"
 #include "support/catch.h"
 
 namespace resample_test {

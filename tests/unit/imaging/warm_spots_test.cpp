@@ -1,4 +1,4 @@
-#include "imaging/warm_spots.h"
+#include "imaging/ground/warm_spots.h"
 
 #include <limits>
 

@@ -1,5 +1,4 @@
-#include "labels/categories.h"
-
+#include "labels/label_set.h"
 #include "support/catch.h"
 
 namespace categories_test {

@@ -1,8 +1,7 @@
-#include "labels/label_parameters.h"
-
 #include <limits>
 
 #include "base/error.h"
+#include "labels/instances.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 

@@ -1,9 +1,8 @@
-#include "labels/polygon_mask.h"
-
 #include <sstream>
 #include <string>
 
 #include "base/error.h"
+#include "labels/rle.h"
 #include "support/catch.h"
 #include "support/golden.h"
 #include "support/message_of.h"

@@ -1,10 +1,9 @@
-#include "radiometry/temperature_table.h"
-
 #include <atomic>
 #include <cmath>
 #include <limits>
 #include <thread>
 
+#include "radiometry/radiance_table.h"
 #include "support/catch.h"
 
 namespace temperature_table_test {

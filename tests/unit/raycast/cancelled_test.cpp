@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include "base/parallel.h"
-#include "base/pipeline.h"
 #include "raycast/ray_caster.h"
 #include "support/catch.h"
 #include "support/grove.h"

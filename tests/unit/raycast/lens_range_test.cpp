@@ -1,5 +1,4 @@
-#include "raycast/lens_range.h"
-
+#include "raycast/pixel_rays.h"
 #include "support/catch.h"
 
 namespace lens_range_test {

@@ -1,8 +1,7 @@
-#include "raycast/sky_rays.h"
-
 #include <cmath>
 #include <cstddef>
 
+#include "raycast/ground_light.h"
 #include "support/catch.h"
 
 namespace sky_rays_test {

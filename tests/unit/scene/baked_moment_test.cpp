@@ -1,7 +1,6 @@
-#include "scene/baked_moment.h"
-
 #include <cmath>
 
+#include "scene/baked_scene.h"
 #include "support/catch.h"
 
 namespace baked_moment_test {

@@ -1,8 +1,7 @@
-#include "scene/ground_moisture.h"
-
 #include <cmath>
 #include <vector>
 
+#include "scene/ground_maps.h"
 #include "support/catch.h"
 
 namespace ground_moisture_test {

@@ -1,11 +1,10 @@
-#include "scene/lens_distortion.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "scene/camera_model.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 

@@ -1,5 +1,3 @@
-#include "scene/top_heights.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

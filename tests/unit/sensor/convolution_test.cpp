@@ -1,4 +1,4 @@
-#include "sensor/convolution.h"
+#include "sensor/optics/convolution.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "base/parallel.h"
-#include "sensor/psf.h"
+#include "sensor/optics/psf.h"
 #include "support/catch.h"
 
 namespace convolution_test {

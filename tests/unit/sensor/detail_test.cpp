@@ -1,10 +1,9 @@
-#include "sensor/detail.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "base/parallel.h"
+#include "sensor/processing.h"
 #include "support/cameras.h"
 #include "support/catch.h"
 #include "support/planes.h"

@@ -1,9 +1,8 @@
-#include "sensor/local_information.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/rng.h"
+#include "sensor/agc.h"
 #include "support/catch.h"
 
 namespace local_information_test {

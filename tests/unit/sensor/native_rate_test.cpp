@@ -1,9 +1,8 @@
-#include "sensor/native_rate.h"
-
 #include <algorithm>
 #include <vector>
 
 #include "sensor/shutter.h"
+#include "sensor/thermal_camera.h"
 #include "support/cameras.h"
 #include "support/catch.h"
 

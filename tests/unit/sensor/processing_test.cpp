@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sensor/psf.h"
+#include "sensor/optics/psf.h"
 #include "support/catch.h"
 #include "support/planes.h"
 

@@ -1,4 +1,4 @@
-#include "sensor/psf.h"
+#include "sensor/optics/psf.h"
 
 #include <cmath>
 #include <numbers>

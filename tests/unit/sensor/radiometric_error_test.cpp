@@ -1,7 +1,6 @@
-#include "sensor/radiometric_error.h"
-
 #include <cmath>
 
+#include "sensor/shutter.h"
 #include "support/cameras.h"
 #include "support/catch.h"
 

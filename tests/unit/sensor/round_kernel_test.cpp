@@ -1,4 +1,4 @@
-#include "sensor/round_kernel.h"
+#include "sensor/optics/round_kernel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 
 #include "base/parallel.h"
 #include "base/rng.h"
-#include "sensor/psf.h"
-#include "sensor/round_convolution.h"
+#include "sensor/optics/optics.h"
+#include "sensor/optics/psf.h"
 #include "support/catch.h"
 
 namespace round_kernel_test {

@@ -1,9 +1,8 @@
-#include "sensor/temporal_filter.h"
-
 #include <cmath>
 
 #include "base/parallel.h"
 #include "base/rng.h"
+#include "sensor/processing.h"
 #include "support/cameras.h"
 #include "support/catch.h"
 

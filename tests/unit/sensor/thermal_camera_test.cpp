@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "sensor/psf.h"
+#include "sensor/optics/psf.h"
 #include "support/cameras.h"
 #include "support/catch.h"
 

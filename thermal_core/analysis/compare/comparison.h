@@ -10,6 +10,7 @@
 #include "analysis/compare/discrimination.h"
 #include "analysis/compare/measures.h"
 #include "analysis/compare/set_figures.h"
+#include "io/json/file.h"
 
 namespace thermal {
 
@@ -69,5 +70,12 @@ struct Halves {
 /// Random halves of a set's frames; the draw depends on `seed` and `draw` alone.
 [[nodiscard]] Halves halves_of(const std::vector<FrameFigures>& frames, std::uint32_t seed,
                                std::uint32_t draw);
+
+/// How noise was measured in a set, as a sentence without a full stop.
+[[nodiscard]] std::string noise_method(const SetFigures& set);
+
+/// A comparison as JSON, with all that is printed; unknown values are null. With `each`, also the figures of each frame
+/// and target.
+[[nodiscard]] Json to_json(const Comparison& comparison, bool each);
 
 }  // namespace thermal

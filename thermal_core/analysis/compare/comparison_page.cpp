@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/compare/comparison_json.h"
-#include "analysis/compare/order_statistics.h"
+#include "analysis/compare/comparison.h"
+#include "base/order_statistics.h"
 #include "io/html_page.h"
-#include "io/image/jpeg.h"
+#include "io/image/pictures.h"
 #include "io/image/png.h"
-#include "io/system/base64.h"
+#include "io/system/sha256.h"
 
 namespace thermal {
 namespace {

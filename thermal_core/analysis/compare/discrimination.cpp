@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/ml.hpp>
 
-#include "analysis/compare/order_statistics.h"
+#include "base/order_statistics.h"
 #include "base/parallel.h"
 #include "base/rng.h"
 

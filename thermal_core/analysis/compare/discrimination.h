@@ -21,7 +21,8 @@ struct FeatureTable {
 [[nodiscard]] std::vector<double> known_values(const FeatureTable& table, std::size_t feature);
 
 /// Area under the curve of one feature alone, in the direction that separates better: .5 or more.
-[[nodiscard]] double separation_alone(const FeatureTable& first, const FeatureTable& second, std::size_t feature);
+[[nodiscard]] double separation_alone(const FeatureTable& first, const FeatureTable& second,
+                                      std::size_t feature);
 
 /// Contribution of a feature.
 struct Importance {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/compare/order_statistics.h"
+#include "base/order_statistics.h"
 
 namespace thermal {
 namespace {

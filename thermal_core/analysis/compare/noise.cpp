@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "analysis/compare/order_statistics.h"
+#include "base/order_statistics.h"
 
 namespace thermal {
 namespace {

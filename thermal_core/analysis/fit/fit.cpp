@@ -10,11 +10,11 @@
 #include <opencv2/core/optim.hpp>
 
 #include "analysis/compare/measures.h"
-#include "analysis/compare/order_statistics.h"
 #include "analysis/fit/fitted_keys.h"
 #include "analysis/fit/stored_radiance.h"
 #include "base/error.h"
-#include "io/system/temporary_folder.h"
+#include "base/order_statistics.h"
+#include "io/system/temporary.h"
 
 namespace thermal {
 namespace {
@@ -396,7 +396,9 @@ void FitOptions::validate() const {
   check("--trials", trials, 20);
 }
 
-bool FittedFeature::is_unlike() const { return separation_after > kUnlike && separation_after > separation_of_halves; }
+bool FittedFeature::is_unlike() const {
+  return separation_after > kUnlike && separation_after > separation_of_halves;
+}
 
 RealFeatures::RealFeatures(std::vector<FrameFigures> frames, std::uint32_t seed)
     : frames_(std::move(frames)), columns_(columns_of(figures_in(frames_))), scales_(columns_.size()) {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "analysis/compare/comparison.h"
-#include "dataset/frame_source.h"
-#include "dataset/plan/plan.h"
-#include "dataset/run/progress.h"
+#include "analysis/compare/frame_source.h"
+#include "dataset/plan/plan_store.h"
+#include "dataset/progress.h"
 #include "io/assets.h"
 #include "io/config/config.h"
 

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <utility>
 
-#include "analysis/compare/order_statistics.h"
+#include "analysis/compare/frame_source.h"
 #include "base/error.h"
+#include "base/order_statistics.h"
 #include "base/parallel.h"
 #include "dataset/clip/imager.h"
-#include "dataset/clip/pass_source.h"
 #include "dataset/clip/scenes.h"
-#include "dataset/frame_source.h"
-#include "dataset/passes/outline.h"
-#include "dataset/plan/ground_planning.h"
+#include "dataset/clip/task.h"
+#include "dataset/outline/outline.h"
+#include "dataset/plan/planner.h"
 #include "dataset/run/tracing.h"
 #include "io/config/materials.h"
-#include "labels/label_parameters.h"
+#include "labels/instances.h"
 
 namespace thermal {
 namespace {

@@ -6,13 +6,13 @@
 
 #include "analysis/compare/set_figures.h"
 #include "dataset/clip/task.h"
-#include "dataset/plan/plan.h"
-#include "dataset/run/progress.h"
+#include "dataset/plan/plan_store.h"
+#include "dataset/progress.h"
 #include "imaging/frame_converter.h"
 #include "io/assets.h"
 #include "io/config/config.h"
 #include "labels/box_style.h"
-#include "radiometry/temperature_table.h"
+#include "radiometry/radiance_table.h"
 
 namespace thermal {
 

@@ -7,9 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "dataset/layout.h"
+#include "dataset/dataset_file.h"
 #include "io/json/camera.h"
-#include "labels/categories.h"
 #include "labels/label_set.h"
 
 namespace thermal {

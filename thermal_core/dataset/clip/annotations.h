@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "io/json/stream.h"
-#include "io/system/spool.h"
+#include "io/json/file.h"
+#include "io/system/temporary.h"
 #include "labels/instances.h"
-#include "labels/label_parameters.h"
-#include "scene/lens_distortion.h"
+#include "scene/camera_model.h"
 #include "scene/manifest.h"
 
 namespace thermal {

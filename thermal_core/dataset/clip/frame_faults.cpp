@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/printable.h"
+#include "base/text.h"
 #include "imaging/frame_converter.h"
 #include "scene/camera_geometry.h"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "imaging/pixel_quarters.h"
+#include "imaging/sampling.h"
 #include "imaging/target_contrast.h"
 
 namespace thermal {

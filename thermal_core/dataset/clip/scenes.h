@@ -9,7 +9,7 @@
 #include "dataset/clip/task.h"
 #include "imaging/frame_converter.h"
 #include "imaging/motion_finder.h"
-#include "radiometry/temperature_table.h"
+#include "radiometry/radiance_table.h"
 
 namespace thermal {
 

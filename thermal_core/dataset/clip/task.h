@@ -7,17 +7,28 @@
 
 #include "imaging/scene_radiance.h"
 #include "io/config/config.h"
-#include "io/system/read_limits.h"
-#include "labels/label_parameters.h"
-#include "scene/lens_distortion.h"
+#include "io/pass_buffer.h"
+#include "labels/instances.h"
+#include "scene/camera_model.h"
 #include "scene/manifest.h"
+#include "scene/passes.h"
 
 namespace thermal {
 
+/// Where the planes of a clip's frames come from, if not from files. Safe to call from several threads.
+class PassSource {
+ public:
+  PassSource() = default;
+  virtual ~PassSource() = default;
+  PassSource(const PassSource&) = delete;
+  PassSource& operator=(const PassSource&) = delete;
+
+  /// Fills the planes of a frame that are needed; may fill others.
+  virtual void read(int frame, const PassNeeds& needs, Passes& out) const = 0;
+};
+
 /// What to do with a clip if a frame cannot be read or converted: reject the clip, or make it without that frame.
 enum class BadFrames { fail, skip };
-
-class PassSource;
 
 /// One clip's passes, and how to read them.
 struct ClipPasses {

@@ -19,7 +19,7 @@
 #include "dataset/exports/tiff.h"
 #include "dataset/exports/webdataset.h"
 #include "dataset/exports/yolo.h"
-#include "dataset/label_pictures.h"
+#include "dataset/label_source.h"
 #include "io/json/entry.h"
 #include "io/json/file.h"
 #include "io/system/files.h"

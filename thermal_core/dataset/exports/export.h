@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "dataset/exports/export_options.h"
+#include "dataset/exports/plan.h"
 #include "dataset/exports/segments.h"
-#include "dataset/run/progress.h"
-#include "io/image/tiff.h"
+#include "dataset/progress.h"
+#include "io/image/pictures.h"
 
 namespace thermal {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "io/system/files.h"
-#include "io/system/folder_lock.h"
+#include "io/system/locks.h"
 
 namespace thermal {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "io/image/tiff.h"
+#include "io/image/pictures.h"
 
 namespace thermal {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <optional>
 
-#include "dataset/exports/export_options.h"
 #include "dataset/exports/geodesy.h"
+#include "dataset/exports/plan.h"
 #include "io/json/file.h"
 #include "radiometry/spectral_response.h"
 

@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "io/json/entry.h"
-#include "labels/polygon_mask.h"
 #include "labels/rle.h"
 
 namespace thermal {

@@ -6,8 +6,8 @@
 #include <string>
 #include <unordered_map>
 
-#include "dataset/exports/export_options.h"
 #include "dataset/exports/outlines.h"
+#include "dataset/exports/plan.h"
 #include "io/json/file.h"
 #include "labels/label_set.h"
 

@@ -11,12 +11,11 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text.h"
+#include "dataset/clip_files.h"
 #include "dataset/dataset_file.h"
 #include "dataset/exports/coco.h"
 #include "dataset/exports/picture_tags.h"
-#include "dataset/frame_lines.h"
-#include "dataset/label_pictures.h"
-#include "dataset/layout.h"
+#include "dataset/label_source.h"
 #include "io/image/png.h"
 
 namespace thermal {

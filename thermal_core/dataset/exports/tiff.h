@@ -3,10 +3,9 @@
 #include <string>
 
 #include "dataset/exports/export_folder.h"
-#include "dataset/exports/export_options.h"
 #include "dataset/exports/plan.h"
-#include "dataset/run/progress.h"
-#include "io/image/tiff.h"
+#include "dataset/progress.h"
+#include "io/image/pictures.h"
 
 namespace thermal {
 

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/relative_name.h"
 #include "dataset/exports/coco.h"
-#include "dataset/label_pictures.h"
+#include "dataset/label_source.h"
 #include "io/json/entry.h"
 #include "io/json/file.h"
 #include "io/system/tar_file.h"

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "dataset/passes/groups.h"
-#include "dataset/passes/survey.h"
-#include "dataset/run/progress.h"
+#include "dataset/clip/pass_folders.h"
+#include "dataset/inspect/survey.h"
+#include "dataset/progress.h"
 #include "io/assets.h"
 #include "io/exr/header.h"
 #include "io/json/file.h"

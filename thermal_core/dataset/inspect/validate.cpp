@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "dataset/clip/record.h"
 #include "dataset/dataset_file.h"
-#include "dataset/layout.h"
 #include "io/json/file.h"
 #include "io/system/files.h"
 

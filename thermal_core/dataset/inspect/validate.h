@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "dataset/run/progress.h"
+#include "dataset/progress.h"
 #include "io/system/files.h"
 
 namespace thermal {

@@ -6,15 +6,15 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/printable.h"
-#include "dataset/frame_lines.h"
-#include "dataset/plan/planning.h"
+#include "base/text.h"
+#include "dataset/clip_files.h"
+#include "dataset/plan/planner.h"
 #include "io/assets.h"
 #include "io/config/lens.h"
-#include "io/image/jpeg.h"
-#include "io/system/base64.h"
+#include "io/image/pictures.h"
 #include "io/system/child_process.h"
-#include "io/system/temporary_folder.h"
+#include "io/system/sha256.h"
+#include "io/system/temporary.h"
 
 namespace thermal {
 

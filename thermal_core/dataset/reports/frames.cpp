@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "base/error.h"
-#include "dataset/label_pictures.h"
+#include "dataset/label_source.h"
 #include "dataset/reports/labels.h"
-#include "io/image/jpeg.h"
-#include "io/system/base64.h"
+#include "io/image/pictures.h"
+#include "io/system/sha256.h"
 
 namespace thermal {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "dataset/run/progress.h"
+#include "dataset/progress.h"
 #include "io/assets.h"
 #include "io/system/files.h"
 

@@ -11,12 +11,11 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/printable.h"
+#include "base/text.h"
 #include "dataset/clip/frame_faults.h"
+#include "dataset/clip/pass_folders.h"
 #include "dataset/dataset_index.h"
-#include "dataset/passes/folders.h"
-#include "dataset/passes/identity.h"
-#include "dataset/passes/outline.h"
+#include "dataset/outline/outline.h"
 #include "dataset/run/convert_requests.h"
 #include "dataset/run/transaction.h"
 #include "io/config/materials.h"
@@ -114,8 +113,8 @@ bool is_to_mend(const ConvertRequest& request, const DatasetIndex& index, const 
 /// The clips that a dataset lacks, or has from passes that were different.
 struct Backlog {
   std::set<std::string> missing;
-  std::set<std::string> changed;  ///< their passes have changed since
-  std::set<std::string> repaired;   ///< can be made with more of their frames
+  std::set<std::string> changed;   ///< their passes have changed since
+  std::set<std::string> repaired;  ///< can be made with more of their frames
 
   [[nodiscard]] bool has(const std::string& clip) const {
     return missing.contains(clip) || changed.contains(clip) || repaired.contains(clip);

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "dataset/clip/record.h"
-#include "dataset/run/convert_options.h"
+#include "dataset/progress.h"
+#include "dataset/run/convert_requests.h"
 #include "dataset/run/options.h"
-#include "dataset/run/progress.h"
 
 namespace thermal {
 

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "dataset/layout.h"
+#include "dataset/dataset_file.h"
 #include "io/config/lens.h"
 #include "io/config/variants.h"
 #include "io/json/camera.h"

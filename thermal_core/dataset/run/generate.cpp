@@ -10,15 +10,14 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "dataset/clip/maker.h"
-#include "dataset/passes/outline.h"
-#include "dataset/plan/ground_planning.h"
-#include "dataset/run/clip_choice.h"
-#include "dataset/run/disk_space.h"
+#include "dataset/outline/outline.h"
+#include "dataset/plan/planner.h"
 #include "dataset/run/monitor.h"
+#include "dataset/run/options.h"
 #include "dataset/run/passes_folder.h"
+#include "dataset/run/render_job.h"
 #include "dataset/run/tracing.h"
 #include "dataset/run/transaction.h"
-#include "dataset/run/worker_pool.h"
 #include "io/bake/ground_maps_file.h"
 #include "io/config/materials.h"
 #include "io/manifest_file.h"
@@ -125,7 +124,7 @@ class Generator {
     monitor.begin(clip);
     const bool keep = options_.keep_passes;
     SpaceWatch space(config_, clip, layout_, {.passes = keep},
-                   [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
+                     [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
     int done = 0;
     const ClipHooks clip_hooks = {.wait_for_frame = {},
                                   .frame_done =

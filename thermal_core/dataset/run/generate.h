@@ -1,8 +1,8 @@
 #pragma once
 
-#include "dataset/plan/plan.h"
+#include "dataset/plan/plan_store.h"
+#include "dataset/progress.h"
 #include "dataset/run/options.h"
-#include "dataset/run/progress.h"
 #include "io/config/config.h"
 
 namespace thermal {

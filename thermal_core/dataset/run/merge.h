@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "dataset/progress.h"
 #include "dataset/run/options.h"
-#include "dataset/run/progress.h"
 #include "io/system/files.h"
 
 namespace thermal {

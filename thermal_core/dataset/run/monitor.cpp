@@ -1,13 +1,93 @@
 #include "dataset/run/monitor.h"
 
+#include <array>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "base/text.h"
-#include "dataset/run/disk_space.h"
 
 namespace thermal {
+namespace {
+
+// A frame's passes are ten channels of four bytes per pixel. RLE reduces dense savanna to 24 bytes, but other scenes
+// may not shrink at all, and the joined actors' layer adds to that.
+constexpr std::int64_t kPassesBytesPerPixel = 40;
+// Three bytes before PNG, which hardly reduces noise; one more for labels, preview and PNG's overhead.
+constexpr std::int64_t kPicturesBytesPerPixel = 4;
+
+/// 0 if the file has been removed meanwhile.
+std::int64_t size_bytes(const Path& file) {
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+  return error ? 0 : static_cast<std::int64_t>(bytes);
+}
+
+}  // namespace
+
+std::int64_t ClipSpace::Files::bytes_a_frame() const {
+  return count == 0 ? worst_bytes : (bytes + count - 1) / count;
+}
+
+std::int64_t ClipSpace::needed_bytes() const {
+  return (frames - passes.count) * passes.bytes_a_frame() +
+         (frames - pictures.count) * pictures.bytes_a_frame();
+}
+
+ClipSpace space_for(const Config& config, const ClipConfig& clip, const ClipFiles& files) {
+  const std::int64_t finer = config.supersample;
+  const std::int64_t wide_px = finer * (config.width_px + 2 * config.overscan_px);
+  const std::int64_t high_px = finer * (config.height_px + 2 * config.overscan_px);
+  const std::int64_t picture_px = std::int64_t{config.width_px} * config.height_px;
+  return {.frames = clip.frames,
+          .passes = {.worst_bytes = files.passes ? kPassesBytesPerPixel * wide_px * high_px : 0},
+          .pictures = {.worst_bytes = files.pictures ? kPicturesBytesPerPixel * picture_px : 0}};
+}
+
+std::string bytes_in_words(std::int64_t bytes) {
+  constexpr std::array kUnits = {"kB", "MB", "GB", "TB"};
+  double value = static_cast<double>(bytes) / 1000;
+  std::size_t unit = 0;
+  while (value >= 999.5 && unit + 1 < kUnits.size()) {
+    value /= 1000;
+    ++unit;
+  }
+  const bool one_digit = value < 9.95 && unit > 0;
+  return fmt::format("{:.{}f} {}", value, one_digit ? 1 : 0, kUnits[unit]);
+}
+
+void check_space(std::int64_t left_bytes, std::int64_t needed_bytes, const std::string& folder,
+                 const std::string& whose) {
+  if (left_bytes / 2 >= needed_bytes) return;
+  throw TryAgainError(fmt::format("{} = {} left; expected at least 2 x the {} that {} still needs", folder,
+                                  bytes_in_words(left_bytes), bytes_in_words(needed_bytes), whose));
+}
+
+SpaceWatch::SpaceWatch(const Config& config, const ClipConfig& clip, const Layout& layout,
+                       const ClipFiles& files, Report report)
+    : id_(clip.id), layout_(layout), report_(std::move(report)), space_(space_for(config, clip, files)) {
+  int there = 0;
+  while (there < clip.frames && std::filesystem::exists(layout_.passes(id_) / passes_name(there))) ++there;
+  passes_ready(there);
+}
+
+void SpaceWatch::passes_ready(int frames) {
+  const std::lock_guard lock(mutex_);
+  while (space_.passes.count < frames)
+    space_.passes.add(size_bytes(layout_.passes(id_) / passes_name(space_.passes.count)));
+  report();
+}
+
+void SpaceWatch::pictures_written() {
+  const std::lock_guard lock(mutex_);
+  const Path folder = layout_.unfinished_clip(id_);
+  const std::string name = frame_name(space_.pictures.count);
+  space_.pictures.add(size_bytes(folder / "ir8" / name) + size_bytes(folder / "ir16" / name));
+  report();
+}
 
 RunMonitor::RunMonitor(const RunHooks& hooks, const Path& out, int frames_total) : hooks_(hooks), out_(out) {
   progress_.total = frames_total;

@@ -6,8 +6,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "dataset/run/render_job.h"
 #include "dataset/run/tracing.h"
-#include "dataset/run/worker_pool.h"
 #include "io/bake/baked_files.h"
 #include "io/manifest_file.h"
 #include "io/system/files.h"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "dataset/layout.h"
-#include "dataset/plan/plan.h"
+#include "dataset/dataset_file.h"
+#include "dataset/plan/plan_store.h"
 #include "dataset/run/monitor.h"
 #include "dataset/run/options.h"
 #include "dataset/run/render_job.h"

@@ -6,16 +6,15 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "dataset/clip/pass_source.h"
-#include "dataset/run/clip_choice.h"
-#include "dataset/run/disk_space.h"
+#include "dataset/clip/task.h"
 #include "dataset/run/monitor.h"
+#include "dataset/run/options.h"
 #include "dataset/run/passes_folder.h"
+#include "dataset/run/render_job.h"
 #include "dataset/run/tracing.h"
-#include "dataset/run/worker_pool.h"
 #include "io/bake/ground_maps_file.h"
 #include "io/system/child_process.h"
-#include "io/system/folder_lock.h"
+#include "io/system/locks.h"
 
 namespace thermal {
 namespace {
@@ -54,7 +53,7 @@ void trace_clips(const std::vector<ClipConfig>& clips, const PlanTracer& tracer,
   for (const ClipConfig& clip : clips) {
     monitor.begin(clip);
     SpaceWatch space(config, clip, layout, {.pictures = false},
-                   [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
+                     [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
     trace_clip(clip, tracer.trace(clip.id, layout.passes(clip.id), true), monitor,
                [&space](int frames) { space.passes_ready(frames); });
     monitor.made(clip);
@@ -113,7 +112,7 @@ RunOutcome render(const Config& config, const DatasetPlan& plan, const GenerateO
     monitor.begin(clip);
     try {
       SpaceWatch space(config, clip, layout, {.pictures = false},
-                     [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
+                       [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
       render_clip(clip, job, stop_wanted, space, monitor);
       monitor.made(clip);
     } catch (const ClipLost& fault) {

@@ -1,14 +1,73 @@
 #include "dataset/run/render_job.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <csignal>
+#include <fstream>
+#include <iterator>
 
 #include <fmt/format.h>
 
-#include "base/printable.h"
-#include "dataset/run/blender_failure.h"
+#include "base/parallel.h"
+#include "base/text.h"
 
 namespace thermal {
+namespace {
+
+constexpr std::uintmax_t kMostReadBytes = 65536;
+constexpr std::size_t kMostLines = 3;
+constexpr std::size_t kLongestLineBytes = 200;
+
+std::string tail_of(const Path& log, std::uintmax_t from) {
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(log, none);
+  if (none || size <= from) return "";
+  std::ifstream file(log, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(size - std::min(size - from, kMostReadBytes)));
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+bool says_something(std::string_view line) {
+  return line.find_first_not_of(" \t\r") != std::string_view::npos && line != "Blender quit";
+}
+
+}  // namespace
+
+std::string ReportedFailure::in_words() const {
+  return message + (where.empty() ? "" : " (" + where + ")") + (hint.empty() ? "" : "; " + hint);
+}
+
+ReportedFailure reported_failure(const Json& event) {
+  const auto text = [&event](const char* field, const char* otherwise) {
+    return printable(event.value(field, std::string(otherwise)));
+  };
+  return {.message = text("message", "unknown reason"),
+          .where = text("where", ""),
+          .hint = text("hint", ""),
+          .config = text("kind", "") == "config"};
+}
+
+std::string last_error_line_in(const Path& log, std::uintmax_t from) {
+  const std::string tail = tail_of(log, from);
+  std::vector<std::string> last;
+  for (const std::string_view line : split(tail, '\n')) {
+    if (says_something(line)) last.push_back(printable(line.substr(0, kLongestLineBytes)));
+  }
+  const std::size_t left_out = last.size() - std::min(last.size(), kMostLines);
+  return fmt::format("{}",
+                     fmt::join(last.begin() + static_cast<std::ptrdiff_t>(left_out), last.end(), " / "));
+}
+
+std::string unreported_end(const ExitStatus& status, const std::string& doing,
+                           const std::string& last_error_line) {
+  const std::string how = status.signal == 0 && status.code == 0 ? "ended early" : status.in_words();
+  std::string end = fmt::format("Blender {} while {}", how, doing);
+  if (status.signal == SIGKILL) return fmt::format("{}; {}", end, kKilledHint);
+  if (status.is_killed()) return end;
+  return end + (last_error_line.empty() ? "; it printed nothing" : ": " + last_error_line);
+}
+
 namespace {
 
 constexpr int kPollMs = 100;
@@ -218,6 +277,62 @@ void RenderJob::wait_for_end(const std::function<bool()>& cancelled) {
 void RenderJob::rethrow_fault() {
   const std::lock_guard lock(mutex_);
   if (fault_) std::rethrow_exception(fault_);
+}
+
+namespace {
+
+/// Threads that all stop when the first of them throws.
+class WorkerPool {
+ public:
+  WorkerPool(const ClipWork& work, const std::function<bool()>& cancelled)
+      : work_(work), stop_wanted_([this, &cancelled] { return failed_ || (cancelled && cancelled()); }) {}
+
+  void run(const std::vector<RenderJob::Task>& tasks) {
+    {
+      std::vector<std::jthread> threads;
+      for (const RenderJob::Task& task : tasks) threads.emplace_back([this, &task] { run_guarded(task); });
+    }
+    if (first_fault_) std::rethrow_exception(first_fault_);
+  }
+
+ private:
+  void run_guarded(const RenderJob::Task& task) noexcept {
+    try {
+      RenderJob job(task);
+      for (const std::string& clip : task.clips) work_(clip, job, stop_wanted_);
+      job.wait_for_end(stop_wanted_);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!first_fault_) first_fault_ = std::current_exception();
+      failed_ = true;
+    }
+  }
+
+  const ClipWork& work_;
+  std::function<bool()> stop_wanted_;
+  std::mutex mutex_;
+  std::exception_ptr first_fault_;
+  std::atomic<bool> failed_ = false;
+};
+
+}  // namespace
+
+std::vector<std::vector<std::string>> deal_clips(const std::vector<std::string>& clips, int jobs) {
+  const std::size_t hands = std::min(static_cast<std::size_t>(jobs), clips.size());
+  std::vector<std::vector<std::string>> dealt(hands);
+  for (std::size_t i = 0; i < clips.size(); ++i) dealt[i % hands].push_back(clips[i]);
+  return dealt;
+}
+
+int threads_each(int threads, int jobs) { return std::max(1, threads / jobs); }
+
+void run_workers(const std::vector<RenderJob::Task>& tasks, int threads, const ClipWork& work,
+                 const std::function<bool()>& cancelled) {
+  const int share = threads == 0 ? thread_count(0) : threads_each(threads, static_cast<int>(tasks.size()));
+  const ClipWork limited = [&](const std::string& clip, RenderJob& job, const std::function<bool()>& stop) {
+    with_threads(share, [&] { work(clip, job, stop); });
+  };
+  WorkerPool(limited, cancelled).run(tasks);
 }
 
 }  // namespace thermal

@@ -19,6 +19,30 @@
 
 namespace thermal {
 
+/// A failure that a script in Blender reported with an event "error".
+struct ReportedFailure {
+  std::string message;  ///< "ModuleNotFoundError: No module named 'numpy'"
+  std::string where;    ///< "blender_scripts/planner/noise.py:8"; may be empty
+  std::string hint;     ///< what to do about it; may be empty
+  bool config = false;  ///< the config is at fault, and not Blender
+
+  /// "message (where); hint".
+  [[nodiscard]] std::string in_words() const;
+};
+
+/// The failure of an event, as one line each whatever it holds. Json::exception if a field has the wrong type.
+[[nodiscard]] ReportedFailure reported_failure(const Json& event);
+
+/// What a Blender printed last, in its own words: up to three lines of `log` from byte `from` on, joined by " / ".
+/// Empty lines and "Blender quit" are left out, a line past 200 bytes is cut, and only the last 64 KiB are read.
+/// Empty if there is nothing, or no log.
+[[nodiscard]] std::string last_error_line_in(const Path& log, std::uintmax_t from);
+
+/// Why a Blender ended that reported no failure, with its last words unless it was killed: "Blender ended with exit
+/// code 1 while building the scene: Error: no memory". `doing` is "building the scene" or the like.
+[[nodiscard]] std::string unreported_end(const ExitStatus& status, const std::string& doing,
+                                         const std::string& last_error_line);
+
 /// A clip that Blender died over twice. Other clips may go well.
 class ClipLost : public Error {
  public:
@@ -117,5 +141,23 @@ class RenderJob {
 
 /// The arguments Blender is started with.
 [[nodiscard]] std::vector<std::string> render_command(const RenderJob::Task& task);
+
+/// Distributes clips among `jobs` Blender processes, or fewer with fewer clips: the j-th gets clips j, j + jobs, …
+[[nodiscard]] std::vector<std::vector<std::string>> deal_clips(const std::vector<std::string>& clips,
+                                                               int jobs);
+
+/// Number of threads for one of several Blender processes that share `threads`, at least one.
+[[nodiscard]] int threads_each(int threads, int jobs);
+
+/// Called with each clip, in the order of its task; for several tasks at the same time. `cancelled` becomes true for
+/// all as soon as one throws.
+using ClipWork =
+    std::function<void(const std::string& clip, RenderJob& job, const std::function<bool()>& cancelled)>;
+
+/// Renders tasks at the same time, with one Blender process and one thread each, and returns when `work` has had all
+/// their clips. `work` may use `threads` threads in total (0: thread_count(0), which they share). If `work` or a job
+/// throws, all stop, and the first exception is rethrown.
+void run_workers(const std::vector<RenderJob::Task>& tasks, int threads, const ClipWork& work,
+                 const std::function<bool()>& cancelled);
 
 }  // namespace thermal

@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "dataset/clip/pass_source.h"
-#include "dataset/layout.h"
+#include "dataset/clip/task.h"
+#include "dataset/dataset_file.h"
 #include "io/bake/baked_files.h"
 #include "io/exr/passes_writer.h"
 #include "io/manifest_file.h"

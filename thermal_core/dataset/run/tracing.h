@@ -3,10 +3,9 @@
 #include <memory>
 
 #include "dataset/clip/task.h"
-#include "dataset/plan/plan.h"
+#include "dataset/plan/plan_store.h"
 #include "dataset/run/options.h"
 #include "raycast/ray_caster.h"
-#include "scene/baked_moment.h"
 #include "scene/baked_scene.h"
 
 namespace thermal {

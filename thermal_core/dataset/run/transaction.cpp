@@ -3,8 +3,8 @@
 #include <exception>
 #include <utility>
 
-#include "base/printable.h"
-#include "dataset/run/clip_choice.h"
+#include "base/text.h"
+#include "dataset/run/options.h"
 
 namespace thermal {
 namespace {

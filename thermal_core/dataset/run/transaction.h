@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dataset/dataset_index.h"
-#include "io/system/folder_lock.h"
+#include "io/system/locks.h"
 
 namespace thermal {
 

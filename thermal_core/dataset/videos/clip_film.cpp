@@ -1,7 +1,7 @@
 #include "dataset/videos/clip_film.h"
 
 #include <algorithm>
-#include <map>
+#include <iterator>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -9,8 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "dataset/clip/record.h"
-#include "dataset/dataset_file.h"
-#include "io/image/picture_size.h"
+#include "io/image/pictures.h"
 #include "io/image/png.h"
 #include "io/json/file.h"
 #include "io/label_files/coco.h"
@@ -209,6 +208,43 @@ Plane<std::uint16_t> ClipFilm::read_counts(std::size_t frame) const {
   Plane<std::uint16_t> counts = read_png16(file);
   check_size(counts, *this, file);
   return counts;
+}
+
+namespace {
+
+ClipSource clip_of_folder(const Path& path, const std::vector<std::string>& ids) {
+  const Path folder = std::filesystem::canonical(path);
+  ClipSource source{.dataset = read_filmed_dataset(folder.parent_path().parent_path()),
+                    .clips = {folder.filename().string()},
+                    .chosen = true};
+  if (!ids.empty())
+    throw ConfigError(
+        fault("--clips", list_names(ids), "", fmt::format("none, because {} is one clip", path.string())));
+  source.dataset.check_clips(source.clips);
+  return source;
+}
+
+}  // namespace
+
+std::vector<std::string> ClipSource::not_made() const {
+  std::vector<std::string> ids;
+  if (!chosen)
+    std::ranges::copy_if(dataset.clips, std::back_inserter(ids), [this](const std::string& id) {
+      return std::ranges::find(dataset.made, id) == dataset.made.end();
+    });
+  return ids;
+}
+
+ClipSource find_clip_source(const Path& path, const std::vector<std::string>& ids) {
+  if (!Layout{path}.is_begun() && std::filesystem::exists(path / "clip.json"))
+    return clip_of_folder(path, ids);
+  ClipSource source{.dataset = read_filmed_dataset(path), .clips = ids, .chosen = !ids.empty()};
+  source.dataset.check_clips(ids);
+  if (!source.chosen) source.clips = source.dataset.made;
+  if (source.clips.empty())
+    throw DataError(fmt::format("{}: none of {} clips is made; expected at least one", path.string(),
+                                source.dataset.clips.size()));
+  return source;
 }
 
 }  // namespace thermal

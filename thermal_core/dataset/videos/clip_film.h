@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/image.h"
-#include "dataset/layout.h"
+#include "dataset/dataset_file.h"
 #include "labels/label_set.h"
 #include "sensor/agc.h"
 
@@ -75,5 +75,20 @@ struct ClipFilm {
 
 /// Reads a clip's records, and its labels.json if `labels`. DataError or IoError naming the file.
 [[nodiscard]] ClipFilm read_clip_film(const FilmedDataset& dataset, const std::string& id, bool labels);
+
+/// Selected clips of a dataset.
+struct ClipSource {
+  FilmedDataset dataset;
+  std::vector<std::string> clips;  ///< ids, in the dataset's order or in the requested one; at least one
+  bool chosen = false;             ///< by their ids, or by the path of a clip's folder
+
+  /// Clips left out because they are not finished; none if clips were chosen.
+  [[nodiscard]] std::vector<std::string> not_made() const;
+};
+
+/// `path`: a dataset, or a clip's folder in one (DIR/clips/CLIP). `ids`: clips of the dataset; none: all that are
+/// finished. ConfigError "--clips = …" for unknown ids, or for ids together with a clip's folder; DataError if a
+/// requested clip, or every clip, is unfinished; errors of read_filmed_dataset().
+[[nodiscard]] ClipSource find_clip_source(const Path& path, const std::vector<std::string>& ids);
 
 }  // namespace thermal

@@ -49,8 +49,8 @@ struct KelvinScale {
 /// A mark on the bar.
 struct ScaleTick {
   double temperature_k = 0;
-  double position = 0;   ///< as place_of()
-  std::string label;  ///< "285", "285.5"
+  double position = 0;  ///< as place_of()
+  std::string label;    ///< "285", "285.5"
 };
 
 /// Round temperatures, hottest last, that are at least `least_gap` of the bar apart: as many as fit, in steps of 1, 2 or

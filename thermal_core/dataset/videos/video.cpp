@@ -10,12 +10,11 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
-#include "base/printable.h"
 #include "base/text.h"
 #include "dataset/videos/cell_painter.h"
-#include "dataset/videos/clip_source.h"
-#include "io/image/encoded_picture.h"
-#include "io/system/temporary_file.h"
+#include "dataset/videos/clip_film.h"
+#include "io/image/pictures.h"
+#include "io/system/temporary.h"
 #include "io/video/h264_file.h"
 
 namespace thermal {

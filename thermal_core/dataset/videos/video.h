@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dataset/run/progress.h"
+#include "dataset/progress.h"
 #include "dataset/videos/kelvin_scale.h"
 #include "io/assets.h"
 #include "io/system/files.h"

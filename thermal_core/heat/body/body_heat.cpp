@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/ranges.h"
+#include "base/error.h"
 
 namespace thermal {
 namespace {

@@ -5,9 +5,8 @@
 #include <string>
 #include <variant>
 
-#include "heat/body/clothing.h"
-#include "heat/body/coat.h"
 #include "heat/body/fire.h"
+#include "heat/body/skin.h"
 #include "heat/body/vehicle_heat.h"
 
 namespace thermal {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/ranges.h"
+#include "base/error.h"
 #include "heat/weather/humid_air.h"
 
 namespace thermal {

@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 
 #include "base/error.h"
-#include "base/ranges.h"
 
 namespace thermal {
 

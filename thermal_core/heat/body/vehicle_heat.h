@@ -4,7 +4,7 @@
 #include <string>
 
 #include "heat/body/body_surface.h"
-#include "heat/surface/properties.h"
+#include "heat/surface/material_heat.h"
 
 namespace thermal {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "heat/surface/properties.h"
+#include "heat/surface/material_heat.h"
 #include "heat/surface/surface_balance.h"
 
 namespace thermal {

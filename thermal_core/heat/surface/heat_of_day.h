@@ -112,7 +112,8 @@ class HeatOfDay {
 };
 
 /// The day of one piece of a material. `soil` is the ground below leaves, `open_ground_k` what slopes face.
-[[nodiscard]] SurfaceDay day_of(const MaterialHeat& heat, const GroundHeat& soil, const SurfaceExposure& exposure,
-                                const DayAround& around, const HeatSteps& steps);
+[[nodiscard]] SurfaceDay day_of(const MaterialHeat& heat, const GroundHeat& soil,
+                                const SurfaceExposure& exposure, const DayAround& around,
+                                const HeatSteps& steps);
 
 }  // namespace thermal

@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "heat/surface/conduction.h"
-#include "heat/surface/leaf_layer.h"
-#include "heat/surface/properties.h"
+#include "heat/surface/material_heat.h"
 #include "heat/surface/surface_balance.h"
 #include "heat/weather/forcing.h"
 

@@ -3,10 +3,58 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
+#include <fmt/core.h>
+
+#include "base/error.h"
 #include "heat/weather/humid_air.h"
 
 namespace thermal {
+namespace {
+
+void check(const std::string& key, double value, const char* unit, double low, double high) {
+  require_range("weather." + key, value, unit, low, high);
+}
+
+void check_hours(const std::string& key, const std::vector<double>& hourly, const char* unit, double low,
+                 double high) {
+  if (hourly.size() != 24)
+    throw ConfigError(fault("weather." + key, fmt::format("{} numbers", hourly.size()), "",
+                            "24 numbers, of 0:00 to 23:00"));
+  for (std::size_t hour = 0; hour < hourly.size(); ++hour)
+    check(fmt::format("{}[{}]", key, hour), hourly[hour], unit, low, high);
+}
+
+constexpr double kColdestK = 200;
+constexpr double kHottestK = 340;
+
+double check_air(const DayWeather& weather) {
+  if (weather.air_hourly_k.empty()) {
+    check("air_min_k", weather.air_min_k, "K", kColdestK, kHottestK);
+    check("air_max_k", weather.air_max_k, "K", kColdestK, kHottestK);
+    if (weather.air_min_k <= weather.air_max_k) return weather.air_max_k;
+    throw ConfigError(fault("weather.air_min_k", fmt::format("{}", weather.air_min_k), "K",
+                            fmt::format("at most weather.air_max_k, {} K", weather.air_max_k)));
+  }
+  check_hours("air_hourly_k", weather.air_hourly_k, "K", kColdestK, kHottestK);
+  return *std::ranges::max_element(weather.air_hourly_k);
+}
+
+}  // namespace
+
+void DayWeather::validate() const {
+  sun.validate();
+  const double warmest_k = check_air(*this);
+  check("elevation_m", elevation_m, "m", -500, 9000);
+  check("vapour_hpa", vapour_hpa, "hPa", 0, saturation_hpa(warmest_k));
+  check("wind_m_s", night_wind_m_s, "m/s", 0, 60);
+  check("day_wind_m_s", day_wind_m_s, "m/s", 0, 60);
+  check("cloud_fraction", cloud_fraction, "", 0, 1);
+  if (!cloud_hourly.empty()) check_hours("cloud_hourly", cloud_hourly, "", 0, 1);
+  check("rain_days_ago", rain_days_ago, "", 0, 10000);
+}
+
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
@@ -95,6 +143,32 @@ std::vector<Forcing> forcing_of_day(const DayWeather& weather, int steps) {
   std::vector<Forcing> day;
   for (int step = 1; step <= steps; ++step) day.push_back(forcing_at(weather, 24.0 * step / steps));
   return day;
+}
+
+SunMemory sun_memory(const DayWeather& weather, double solar_h) noexcept {
+  constexpr double kShortestH = 0.25;  // the hour that the moment is in
+  std::array<double, 24> left{};
+  double sum = 0;
+  for (std::size_t hour = 0; hour < left.size(); ++hour) {
+    const double middle_h = static_cast<double>(hour) + 0.5;
+    const Forcing forcing = forcing_at(weather, middle_h);
+    const double since_h = (solar_h - middle_h) - 24 * std::floor((solar_h - middle_h) / 24);
+    left[hour] =
+        std::max(0.0, forcing.global_w_m2 - forcing.diffuse_w_m2) / std::sqrt(std::max(since_h, kShortestH));
+    sum += left[hour];
+  }
+  SunMemory memory{};
+  for (std::size_t hour = 0; hour < left.size(); ++hour)
+    memory[hour] = sum > 0 ? static_cast<float>(left[hour] / sum) : 0.0F;
+  return memory;
+}
+
+float sunlit_share(const SunMemory& memory, std::uint32_t hours) noexcept {
+  float share = 0;
+  for (std::size_t hour = 0; hour < memory.size(); ++hour) {
+    if ((hours >> hour & 1U) != 0) share += memory[hour];
+  }
+  return share;
 }
 
 }  // namespace thermal

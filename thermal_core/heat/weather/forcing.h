@@ -1,11 +1,34 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
-#include "heat/weather/day_weather.h"
 #include "heat/weather/sun.h"
 
 namespace thermal {
+
+/// The weather of a day that repeats itself, as it was for the days before, and where on Earth it is.
+struct DayWeather {
+  SunPath sun;
+  double elevation_m = 900;          ///< above the sea, -500 to 9000
+  double air_min_k = 270.6;          ///< at sunrise
+  double air_max_k = 293;            ///< in the early afternoon
+  std::vector<double> air_hourly_k;  ///< air at 0:00, 1:00, … 23:00, instead of both; empty: from both
+  double vapour_hpa = 3.63;          ///< partial pressure of vapour all day, as far as the air can hold it
+  double night_wind_m_s = 1;         ///< at 2 m above the ground
+  double day_wind_m_s = 3.5;         ///< at noon
+  double cloud_fraction = 0;         ///< 0 to 1
+  std::vector<double> cloud_hourly =
+      {};                     ///< the same at 0:00, 1:00, … 23:00, instead of it; empty: all day alike
+  double rain_days_ago = 60;  ///< at least 0
+
+  /// ConfigError with the key of weather if a value is outside its domain: temperatures 200 to 340 K and the minimum
+  /// not above the maximum, vapour that the air cannot hold even at its warmest, wind 0 to 60 m/s.
+  void validate() const;
+
+  [[nodiscard]] bool operator==(const DayWeather&) const = default;
+};
 
 /// The weather that acts on surfaces at one moment.
 struct Forcing {
@@ -43,5 +66,15 @@ struct Forcing {
 
 /// The forcing at the ends of `steps` equal steps of a day from 0:00 on.
 [[nodiscard]] std::vector<Forcing> forcing_of_day(const DayWeather& weather, int steps);
+
+/// How much the sunbeams of each hour of a day still warm the ground at a moment: what the ground got in that hour, over
+/// the root of the time since (the response of a thick body to heat at its surface). The sum is 1; all 0 where the sun
+/// does not rise. Entry k is the hour from k to k + 1 o'clock; hours still to come are those of the day before.
+using SunMemory = std::array<float, 24>;
+/// The weights at a local solar time.
+[[nodiscard]] SunMemory sun_memory(const DayWeather& weather, double solar_h) noexcept;
+
+/// Share of the day's sunbeams that a place gets, by the hours in which it is sunlit: bit k is the hour from k o'clock.
+[[nodiscard]] float sunlit_share(const SunMemory& memory, std::uint32_t hours) noexcept;
 
 }  // namespace thermal

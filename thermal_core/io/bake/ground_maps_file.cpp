@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "io/bake/array_file.h"
-#include "io/bake/array_writer.h"
 #include "io/json/schema.h"
 
 namespace thermal {

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/printable.h"
 #include "base/text.h"
 #include "io/config/calibration_tree.h"
 

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "io/system/files.h"
-#include "scene/lens_distortion.h"
+#include "scene/camera_model.h"
 
 namespace thermal {
 

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/printable.h"
 #include "base/text.h"
 
 namespace thermal {

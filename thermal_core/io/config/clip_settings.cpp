@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "io/config/lens.h"
 #include "io/config/sensor.h"
-#include "io/config/video.h"
 #include "io/config/weather.h"
 #include "io/json/camera.h"
 #include "io/json/schema.h"

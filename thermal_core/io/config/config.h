@@ -9,7 +9,6 @@
 #include "io/assets.h"
 #include "io/config/clip_settings.h"
 #include "io/json/file.h"
-#include "scene/season.h"
 #include "scene/weather.h"
 
 namespace thermal {

@@ -7,6 +7,12 @@
 
 namespace thermal {
 
+/// Takes the distributions out of a value, at every depth: an object with them alone, or empty.
+[[nodiscard]] Json take_distributions(Json& value, const Json& rules);
+
+/// Merges members of objects at every depth; anything else is replaced, by null too.
+void overlay(Json& into, const Json& changes);
+
 /// A config after its draws: clips with a count are listed one by one, and all values are given.
 struct DrawnConfig {
   Json document;   ///< without the sections of clips and flights

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "io/json/file.h"
-#include "scene/lens_distortion.h"
+#include "scene/camera_model.h"
 
 namespace thermal {
 

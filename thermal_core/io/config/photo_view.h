@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/assets.h"
-#include "io/image/photo_tags.h"
+#include "io/image/pictures.h"
 #include "io/json/file.h"
 
 namespace thermal {

@@ -5,9 +5,16 @@
 
 #include "io/assets.h"
 #include "io/json/file.h"
+#include "sensor/analogue_link.h"
 #include "sensor/sensor_parameters.h"
 
 namespace thermal {
+
+/// `sensor.processing` of a config, checked and filled in.
+[[nodiscard]] ProcessingParameters read_processing(const Json& processing);
+
+/// `output.link`, likewise.
+[[nodiscard]] AnalogueLinkParameters read_link(const Json& link);
 
 /// Fills in missing values of `camera` and `sensor` from the config's preset, a file in assets/sensors, and from those
 /// that it builds on (its own sensor.preset). `schema` is that of configs. ConfigError if a preset is unknown (starting

@@ -13,12 +13,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/printable.h"
 #include "base/relative_name.h"
 #include "base/text.h"
 #include "io/exr/file.h"
-#include "io/exr/indices.h"
 #include "io/exr/mattes.h"
+#include "io/exr/pixels.h"
 #include "io/exr/planes.h"
 #include "io/system/text_file.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/image.h"
-#include "io/exr/scan.h"
+#include "io/exr/header_check.h"
 #include "io/system/files.h"
 
 namespace thermal {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "io/exr/file.h"
-#include "io/exr/indices.h"
+#include "io/exr/pixels.h"
 #include "io/exr/planes.h"
-#include "scene/fine_samples.h"
+#include "scene/passes.h"
 
 namespace thermal {
 namespace {

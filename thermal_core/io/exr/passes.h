@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/exr/layout.h"
+#include "io/exr/planes.h"
 #include "io/pass_buffer.h"
 #include "io/system/files.h"
 #include "scene/passes.h"

@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "scene/fine_samples.h"
+#include "scene/passes.h"
 
 namespace thermal {
 namespace {

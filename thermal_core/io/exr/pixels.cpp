@@ -1,9 +1,11 @@
 #include "io/exr/pixels.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <map>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -167,7 +169,8 @@ void read_into_planes(const Source& source, int number, const Strip& strip, cons
   const std::size_t before = bytes_a_line * static_cast<std::size_t>(strip.window.min.y - display.min.y) +
                              kBytes * static_cast<std::size_t>(strip.window.min.x - display.min.x);
   std::vector<LineDestination> destinations;
-  for (const Job& job : jobs) destinations.push_back({.first = job.pixels + before, .bytes_a_line = bytes_a_line});
+  for (const Job& job : jobs)
+    destinations.push_back({.first = job.pixels + before, .bytes_a_line = bytes_a_line});
   read_to(source, number, strip, jobs, destinations);
 }
 
@@ -192,7 +195,7 @@ void read_and_crop(const Source& source, int number, const Strip& strip, const s
   for (Bits& bits : strips) {
     bits = Bits(width_of(strip.window), height_of(strip.window));
     destinations.push_back({.first = reinterpret_cast<char*>(bits.pixels().data()),
-                      .bytes_a_line = kBytes * static_cast<std::size_t>(width_of(strip.window))});
+                            .bytes_a_line = kBytes * static_cast<std::size_t>(width_of(strip.window))});
   }
   read_to(source, number, strip, jobs, destinations);
   for (std::size_t i = 0; i < jobs.size(); ++i)
@@ -239,6 +242,46 @@ void decode(Imf::MultiPartInputFile& file, const Path& name, const std::vector<E
          .pixels = sized_plane(target, file.header(channel.part).displayWindow())});
   }
   for (const auto& [key, jobs] : rounds) read_part({.file = file, .name = name}, key.second, jobs);
+}
+
+namespace {
+
+constexpr int kLargestInHalf = 2048;  // 2^11: half floats have 11 significant bits (IEEE 754-2019, binary16)
+
+bool is_lossy(std::string_view compression) {
+  constexpr std::array<std::string_view, 4> kLossy = {"B44", "B44A", "DWAA", "DWAB"};
+  return std::find(kLossy.begin(), kLossy.end(), compression) != kLossy.end();
+}
+
+template <typename Number>
+void convert(const Plane<Number>& plane, const ExrChannel& channel, Plane<std::uint16_t>& out) {
+  out.resize(plane.width_px(), plane.height_px());
+  const bool half = channel.type == "half";
+  to_indices(plane.pixels(), plane.width_px(), channel.full_name(), out.pixels(),
+             half ? kLargestInHalf : kLargestIndex, half ? ", up to which half floats are exact" : "");
+}
+
+}  // namespace
+
+ExrIndexPlane::ExrIndexPlane(const ExrChannel& channel, IndexPixels& pixels)
+    : channel_(channel), pixels_(pixels) {
+  if (!is_lossy(channel.compression)) return;
+  throw DataError(fault(channel.full_name() + ": compression", channel.compression, "",
+                        "a lossless one (none, RLE, ZIPS, ZIP, PIZ or PXR24): others change indices"));
+}
+
+ExrTarget ExrIndexPlane::target() {
+  ExrTarget target{.channel = &channel_, .plane = &pixels_.floats, .outside = 0};
+  if (channel_.type == "uint") target.plane = &pixels_.wholes;
+  return target;
+}
+
+void ExrIndexPlane::indices(Plane<std::uint16_t>& out) const {
+  if (channel_.type == "uint") {
+    convert(pixels_.wholes, channel_, out);
+  } else {
+    convert(pixels_.floats, channel_, out);
+  }
 }
 
 }  // namespace thermal

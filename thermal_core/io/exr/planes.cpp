@@ -1,14 +1,12 @@
 #include "io/exr/planes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/text.h"
-#include "io/exr/header.h"
 #include "io/exr/passes_writer.h"
 #include "io/exr/pixels.h"
 

@@ -13,7 +13,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "io/system/naming.h"
+#include "io/system/files.h"
 #include "scene/camera_geometry.h"
 
 namespace thermal {

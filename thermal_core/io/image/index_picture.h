@@ -7,9 +7,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "io/image/png_file.h"
+#include "io/image/png.h"
+#include "io/pass_buffer.h"
 #include "io/system/files.h"
-#include "io/system/read_limits.h"
 #include "scene/manifest.h"
 #include "scene/passes.h"
 

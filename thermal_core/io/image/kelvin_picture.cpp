@@ -12,7 +12,7 @@
 #include "base/text.h"
 #include "io/image/picture_module.h"
 #include "io/image/png.h"
-#include "io/system/naming.h"
+#include "io/system/files.h"
 
 namespace thermal {
 namespace {

@@ -2,13 +2,7 @@
 
 #include <string>
 
-#include "io/image/encoded_picture.h"
-#include "io/image/grey_plane.h"
-#include "io/image/photo_tags.h"
-#include "io/image/picture_size.h"
-#include "io/image/stored_temperatures.h"
-#include "io/image/text_coverage.h"
-#include "io/image/tiff.h"
+#include "io/image/pictures.h"
 #include "io/system/files.h"
 
 namespace thermal {
@@ -16,7 +10,7 @@ namespace thermal {
 /// Functions that use OpenImageIO, libtiff and OpenCV's imgcodecs. These need 230 libraries, which take .3 s to load,
 /// so they are in a module (io/pictures/) that is loaded on first use. Exceptions are those of the functions' callers.
 struct PictureModule {
-  /// As as_jpeg() in io/image/jpeg.h, with faults of the file without its name.
+  /// As as_jpeg() in io/image/pictures.h, with faults of the file without its name.
   std::string (*as_jpeg)(const Path& picture, int most_px);
   PictureSize (*read_picture_size)(const Path& file);
   TextPicture (*draw_text)(const Path& font, const std::string& ascii, int size_px);

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "io/json/file.h"
-#include "scene/camera_intrinsics.h"
-#include "scene/lens_distortion.h"
+#include "scene/camera_model.h"
 
 namespace thermal {
 

@@ -14,9 +14,9 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "io/image/picture_size.h"
+#include "io/image/pictures.h"
 #include "io/system/text_file.h"
-#include "labels/categories.h"
+#include "labels/label_set.h"
 
 namespace thermal {
 namespace {
@@ -58,7 +58,7 @@ std::array<std::int64_t, kColumns> numbers_of(std::string_view line, const Locat
   const std::vector<std::string_view> cells = split(line, ',');
   if (cells.size() != kColumns) {
     throw location.fault_of(fmt::format("{} columns", cells.size()),
-                         "10: frame, object_id, x_min, y_min, w, h, class, species, occluded, noisy");
+                            "10: frame, object_id, x_min, y_min, w, h, class, species, occluded, noisy");
   }
   std::array<std::int64_t, kColumns> numbers{};
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -79,7 +79,7 @@ std::string_view category_of(std::int64_t animal_or_human, std::int64_t species,
   if (species == -1) return animal_or_human == 1 ? kSpecies[0] : kUnknownAnimal;
   if ((species == 0) != (animal_or_human == 1))
     throw location.fault_of(fmt::format("class {} with species {}", animal_or_human, species),
-                         "class 1 with species 0 or -1, class 0 with another");
+                            "class 1 with species 0 or -1, class 0 with another");
   return kSpecies[static_cast<std::size_t>(species)];
 }
 

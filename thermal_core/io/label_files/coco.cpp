@@ -4,15 +4,13 @@
 #include <map>
 #include <numeric>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "io/json/entry.h"
-#include "io/label_files/frame_order.h"
+#include "io/label_files/picture_names.h"
 
 namespace thermal {
 namespace {
@@ -281,7 +279,7 @@ class CocoReader {
   }
 
   std::size_t location_of(const Places& places, std::size_t label, const char* key, const LabelId& id,
-                       const char* list) const {
+                          const char* list) const {
     const auto found = places.find(id);
     if (found != places.end()) return found->second;
     throw fault_of_label(label, key, id_text(id), fmt::format("the id of one of the {}", list));
@@ -315,5 +313,38 @@ class CocoReader {
 }  // namespace
 
 LabelSet read_coco(const Path& file) { return CocoReader(file).read(); }
+
+namespace {
+
+/// Thrown to end reading.
+struct ImagesBegin {};
+
+void take(const std::string& file, const std::string& list, std::size_t place, const Json& json,
+          CocoHead& head) {
+  if (list == "images" || list == "annotations") throw ImagesBegin();
+  const JsonEntry entry(json, file, list, place);
+  if (list == "categories") head.categories.emplace_back(entry.text("name"), entry.integer("id"));
+  if (list == "videos") head.videos.push_back(entry.text("name"));
+}
+
+}  // namespace
+
+CocoHead read_coco_head(const Path& file) {
+  check_is_own_file(file);
+  CocoHead head;
+  const std::string name = file.string();
+  try {
+    (void)read_json_elements(file, [&](const std::string& list, std::size_t place, const Json& json) {
+      take(name, list, place, json, head);
+    });
+  } catch (const ImagesBegin&) {
+  } catch (const ConfigError& error) {
+    throw DataError(error.what());
+  }
+  if (head.categories.empty())
+    throw DataError(
+        fmt::format("{}: no list \"categories\" before its images; expected a COCO file of Veldt's", name));
+  return head;
+}
 
 }  // namespace thermal

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "io/system/files.h"
-#include "labels/detection.h"
 #include "labels/label_set.h"
 
 namespace thermal {

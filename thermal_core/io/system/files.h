@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/error.h"
 #include "io/system/sha256.h"
 
 namespace thermal {
@@ -140,5 +141,15 @@ enum class Linking { hard, symlink, copy };
 /// across file systems, beyond its limit of links. Returns the method used. Never replaces or writes through an
 /// existing `as`. IoError with the file and the system's reason; TryAgainError if the disk is full.
 Linking link_file(const Path& file, const Path& as, Linking wanted);
+
+/// The result of `work`; messages of DataErrors are prefixed with the file's name.
+template <typename Work>
+auto naming(const Path& file, const Work& work) {
+  try {
+    return work();
+  } catch (const DataError& error) {
+    throw DataError(file.string() + ": " + error.what());
+  }
+}
 
 }  // namespace thermal

@@ -31,4 +31,7 @@ class Sha256 {
 /// The same of a text.
 [[nodiscard]] std::string sha256_of(std::string_view text);
 
+/// Encodes bytes as base64: RFC 4648, section 4, padded.
+[[nodiscard]] std::string base64_of(std::string_view bytes);
+
 }  // namespace thermal

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "base/image.h"
+
 namespace thermal {
 
 /// Encoder settings of a video. Its bytes depend on these, the frames and the encoder's version alone.
@@ -24,5 +26,9 @@ struct VideoPlanes {
   int width_px = 0;
   int height_px = 0;
 };
+
+/// Draws grey levels 0 to 255 in video range, 16 to 235 (ITU-R BT.601), without colour. Where the video is a pixel
+/// longer, the edge is repeated.
+void draw_grey(const Plane<std::uint8_t>& frame, const VideoPlanes& out);
 
 }  // namespace thermal

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "io/video/h264_writer.h"
-#include "io/video/video_levels.h"
+#include "io/video/ffmpeg.h"
+#include "io/video/h264_settings.h"
 
 namespace thermal {
 namespace {

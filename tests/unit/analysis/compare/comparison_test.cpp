@@ -3,8 +3,8 @@
 #include <cmath>
 #include <set>
 
-#include "analysis/compare/order_statistics.h"
 #include "base/error.h"
+#include "base/order_statistics.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 

@@ -1,5 +1,4 @@
-#include "analysis/compare/grey_levels.h"
-
+#include "analysis/compare/frame_statistics.h"
 #include "support/catch.h"
 #include "support/grey_frames.h"
 

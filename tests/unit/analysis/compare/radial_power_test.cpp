@@ -1,8 +1,7 @@
-#include "analysis/compare/radial_power.h"
-
 #include <cmath>
 #include <numbers>
 
+#include "analysis/compare/frame_statistics.h"
 #include "support/catch.h"
 #include "support/grey_frames.h"
 

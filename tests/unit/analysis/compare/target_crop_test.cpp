@@ -1,4 +1,4 @@
-#include "analysis/compare/target_crop.h"
+#include "analysis/target_crop.h"
 
 #include "support/catch.h"
 #include "support/grey_frames.h"

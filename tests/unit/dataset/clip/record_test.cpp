@@ -1,7 +1,7 @@
 #include "dataset/clip/record.h"
 
 #include "base/error.h"
-#include "dataset/layout.h"
+#include "dataset/dataset_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/test_folder.h"

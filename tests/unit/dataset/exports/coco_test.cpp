@@ -1,7 +1,7 @@
 #include "dataset/exports/coco.h"
 
 #include "base/error.h"
-#include "dataset/exports/selection.h"
+#include "dataset/exports/source.h"
 #include "io/json/file.h"
 #include "support/catch.h"
 #include "support/message_of.h"

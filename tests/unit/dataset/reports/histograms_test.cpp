@@ -1,9 +1,8 @@
-#include "dataset/reports/histograms.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "dataset/reports/labels.h"
 #include "support/catch.h"
 
 namespace histograms_test {

@@ -1,7 +1,6 @@
-#include "dataset/run/blender_failure.h"
-
 #include <csignal>
 
+#include "dataset/run/render_job.h"
 #include "support/catch.h"
 #include "support/test_folder.h"
 

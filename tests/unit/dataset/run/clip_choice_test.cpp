@@ -1,6 +1,5 @@
-#include "dataset/run/clip_choice.h"
-
 #include "base/error.h"
+#include "dataset/run/options.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 

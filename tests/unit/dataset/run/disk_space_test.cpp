@@ -1,6 +1,5 @@
-#include "dataset/run/disk_space.h"
-
 #include "base/error.h"
+#include "dataset/run/monitor.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 

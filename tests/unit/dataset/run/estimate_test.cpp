@@ -1,5 +1,4 @@
-#include "dataset/run/estimate.h"
-
+#include "dataset/run/options.h"
 #include "support/catch.h"
 
 namespace estimate_test {

@@ -1,9 +1,7 @@
-#include "dataset/run/shards.h"
-
 #include <algorithm>
 #include <numeric>
 
-#include "dataset/run/estimate.h"
+#include "dataset/run/options.h"
 #include "support/catch.h"
 
 namespace shards_test {

@@ -1,8 +1,7 @@
-#include "dataset/run/worker_pool.h"
-
 #include <atomic>
 #include <set>
 
+#include "dataset/run/render_job.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/test_folder.h"

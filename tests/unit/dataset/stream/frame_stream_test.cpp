@@ -1,4 +1,4 @@
-#include "dataset/stream/frame_stream.h"
+#include "dataset/live/frame_stream.h"
 
 #include <cmath>
 

@@ -1,7 +1,6 @@
-#include "dataset/stream/lateness.h"
-
 #include <cmath>
 
+#include "dataset/live/frame_stream.h"
 #include "support/catch.h"
 
 namespace lateness_test {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "dataset/videos/tag_positions.h"
 #include "support/catch.h"
 
 namespace grid_test {

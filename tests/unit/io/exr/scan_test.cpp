@@ -1,8 +1,7 @@
-#include "io/exr/scan.h"
-
 #include <cstring>
 
 #include "base/error.h"
+#include "io/exr/header_check.h"
 #include "support/catch.h"
 #include "support/exr.h"
 #include "support/message_of.h"

@@ -1,7 +1,5 @@
-#include "io/image/grey_picture.h"
-
 #include "base/error.h"
-#include "io/image/picture_size.h"
+#include "io/image/pictures.h"
 #include "io/image/png.h"
 #include "support/catch.h"
 #include "support/message_of.h"

@@ -1,11 +1,8 @@
-#include "io/image/jpeg.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "io/image/grey_picture.h"
+#include "io/image/pictures.h"
 #include "io/image/png.h"
-#include "io/image/tiff.h"
 #include "io/system/files.h"
 #include "support/catch.h"
 #include "support/test_folder.h"

@@ -9,10 +9,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "io/image/grey_picture.h"
-#include "io/image/jpeg.h"
+#include "io/image/pictures.h"
 #include "io/image/png.h"
-#include "io/image/tiff.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/test_folder.h"

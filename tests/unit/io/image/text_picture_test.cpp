@@ -1,8 +1,7 @@
-#include "io/image/text_picture.h"
-
 #include <algorithm>
 
 #include "base/error.h"
+#include "io/image/pictures.h"
 #include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"

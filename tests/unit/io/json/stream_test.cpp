@@ -1,5 +1,4 @@
-#include "io/json/stream.h"
-
+#include "io/json/file.h"
 #include "support/catch.h"
 
 namespace json_stream_test {

@@ -1,6 +1,5 @@
-#include "io/label_files/coco_head.h"
-
 #include "base/error.h"
+#include "io/label_files/coco.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/test_folder.h"

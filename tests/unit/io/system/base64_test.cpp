@@ -1,5 +1,4 @@
-#include "io/system/base64.h"
-
+#include "io/system/sha256.h"
 #include "support/catch.h"
 
 namespace base64_test {

@@ -1,10 +1,9 @@
-#include "io/system/cores.h"
-
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "io/system/machine.h"
 #include "support/catch.h"
 #include "support/test_folder.h"
 

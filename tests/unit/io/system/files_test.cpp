@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "io/system/folder_lock.h"
+#include "io/system/locks.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/test_folder.h"

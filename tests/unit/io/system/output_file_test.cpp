@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "io/system/files.h"
-#include "io/system/spool.h"
+#include "io/system/temporary.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/test_folder.h"

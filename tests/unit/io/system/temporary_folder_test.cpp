@@ -1,11 +1,10 @@
-#include "io/system/temporary_folder.h"
-
 #include <csignal>
 #include <cstdlib>
 
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "io/system/temporary.h"
 #include "support/catch.h"
 #include "support/patience.h"
 #include "support/test_folder.h"

@@ -1,7 +1,6 @@
-#include "io/video/preview_video.h"
-
 #include "base/error.h"
 #include "base/parallel.h"
+#include "io/video/h264_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/test_folder.h"

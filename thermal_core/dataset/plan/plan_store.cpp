@@ -1,0 +1,238 @@
+#include "dataset/plan/plan_store.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/relative_name.h"
+#include "io/json/camera.h"
+#include "io/json/schema.h"
+#include "io/system/sha256.h"
+
+namespace thermal {
+namespace {
+
+/// Clips or flights of a config as the planner sees them, with the cameras that differ from the dataset's.
+Json planned_entries(const Json& flown, const std::map<std::string, SharedSettings>& own,
+                     const CameraIntrinsics& usual) {
+  Json entries = flown;
+  for (Json& entry : entries) {
+    (void)take_sections(entry);
+    for (const char* key : {"season", "drawn"}) entry.erase(key);
+    const auto found = own.find(entry.at("id").get<std::string>());
+    if (found != own.end() && found->second->camera != usual)
+      entry["camera"] = to_json(found->second->camera);
+  }
+  return entries;
+}
+
+ClipPlan clip_of(const Json& json) {
+  return {.id = json.at("id"),
+          .of_flight = json.at("of_flight"),
+          .start_s = json.at("start_s"),
+          .frames = json.at("frames"),
+          .frame_rate_hz = json.at("frame_rate_hz"),
+          .frames_with_actors = json.at("frames_with_actors"),
+          .min_agl_m = json.at("min_agl_m"),
+          .max_agl_m = json.at("max_agl_m"),
+          .mean_agl_m = json.at("mean_agl_m"),
+          .mean_look_angle_deg = json.at("mean_look_angle_deg")};
+}
+
+/// A clip cut from a flight, in the form of a config.
+Json to_document(const ClipPlan& clip, const Json& flight) {
+  return cut_from(flight, {{"id", clip.id},
+                           {"start_s", clip.start_s},
+                           {"frames", clip.frames},
+                           {"frame_rate_hz", clip.frame_rate_hz}});
+}
+
+/// Whether a plan's clips are those of a config.
+class ClipCheck {
+ public:
+  ClipCheck(const Config& config, const std::string& name) : config_(config), name_(name) {}
+
+  void check(const std::vector<ClipPlan>& clips) const {
+    std::set<std::string> ids;
+    std::int64_t frames = 0;
+    for (std::size_t k = 0; k < std::max(clips.size(), config_.clips.size()); ++k) {
+      check(k < clips.size() ? clips[k] : ClipPlan(), k);
+      if (!ids.insert(clips[k].id).second) fail(k, "id", quoted(clips[k].id), "each id once");
+      frames += clips[k].frames;
+    }
+    constexpr int kMostFrames = std::numeric_limits<int>::max();
+    if (frames > kMostFrames)
+      throw DataError(
+          fmt::format("{}: clips have {} frames; expected at most {}", name_, frames, kMostFrames));
+  }
+
+ private:
+  [[noreturn]] void fail(std::size_t k, const char* key, const std::string& value,
+                         const std::string& rule) const {
+    throw DataError(
+        fmt::format("{}: {}", name_, fault(fmt::format("clips[{}].{}", k, key), value, "", rule)));
+  }
+
+  void check(const ClipPlan& clip, std::size_t k) const {
+    if (k >= config_.clips.size()) {
+      if (std::ranges::find(config_.flights, clip.of_flight) == config_.flights.end())
+        fail(k, "of_flight", quoted(clip.of_flight), "a flight of the config");
+      return;
+    }
+    const ClipConfig& own = config_.clips[k];
+    if (clip.id != own.id) fail(k, "id", quoted(clip.id), quoted(own.id) + ", as in the config");
+    if (!clip.of_flight.empty())
+      fail(k, "of_flight", quoted(clip.of_flight), "\"\", for a clip of the config");
+    if (clip.frames != own.frames)
+      fail(k, "frames", std::to_string(clip.frames), fmt::format("{}, as in the config", own.frames));
+  }
+
+  static std::string quoted(const std::string& text) { return brief(Json(text)); }
+
+  const Config& config_;
+  const std::string& name_;
+};
+
+}  // namespace
+
+Json planned_part(const Config& config) {
+  const Json& all = config.resolved;
+  Json scene = all.at("scene");
+  scene.erase("temperatures");
+  Json render = {{"view_margin_px", config.view_margin_px},
+                 {"posed_actors", all.at("render").at("posed_actors")}};
+  return {{"name", all.at("name")},
+          {"seed", all.at("seed")},
+          {"scene", std::move(scene)},
+          {"camera", to_json(config.camera)},
+          {"render", std::move(render)},
+          {"clips", planned_entries(all.at("clips"), config.own_of_clips, config.camera)},
+          {"flights", planned_entries(all.at("flights"), config.own_of_flights, config.camera)}};
+}
+
+DatasetPlan plan_of(const Json& document, const std::string& name, const Assets& assets) {
+  Json checked = document;
+  const std::vector<std::string> faults = check_and_fill(checked, assets.schema("plan"));
+  if (!faults.empty()) throw DataError(name + ": " + faults.front());
+  const Json& outline = checked.at("outline");
+  DatasetPlan plan{.clips = {},
+                   .cover_shares = outline.at("covers"),
+                   .actor_materials = outline.at("actors"),
+                   .config = std::move(checked.at("config")),
+                   .files = checked.at("files")};
+  for (const Json& clip : checked.at("clips")) plan.clips.push_back(clip_of(clip));
+  return plan;
+}
+
+Config with_flights_cut(Config config, const DatasetPlan& plan, const std::string& name) {
+  ClipCheck(config, name).check(plan.clips);
+  std::map<std::string, const Json*> flights;
+  for (const Json& flight : config.resolved.at("flights")) flights[flight.at("id")] = &flight;
+  Json cut = Json::array();
+  for (const ClipPlan& clip : plan.clips)
+    if (!clip.of_flight.empty()) cut.push_back(to_document(clip, *flights.at(clip.of_flight)));
+  return with_clips(std::move(config), cut);
+}
+
+namespace {
+
+using Sums = std::map<std::string, std::string>;  ///< SHA-256 by name, relative to the folder
+
+constexpr const char* kName = "checksums.json";
+
+/// IoError, or TryAgainError if the disk is full.
+std::vector<std::string> names_in(const Path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  std::filesystem::recursive_directory_iterator entry(folder, error);
+  for (const std::filesystem::recursive_directory_iterator end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->is_regular_file() && !entry->is_symlink())
+      names.push_back(entry->path().lexically_relative(folder).string());
+  }
+  if (error) fail_at("read", folder, error.value());
+  std::erase(names, kName);
+  return names;
+}
+
+/// IoError if one cannot be read.
+Sums sums_of(const Path& folder, const std::vector<std::string>& names) {
+  std::vector<std::string> sums(names.size());
+  parallel_for(names.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t place = begin; place < end; ++place) sums[place] = sha256_of_file(folder / names[place]);
+  });
+  Sums found;
+  for (std::size_t place = 0; place < names.size(); ++place) found[names[place]] = sums[place];
+  return found;
+}
+
+/// DataError if there are none.
+Sums recorded_in(const Path& folder) {
+  const Path file = folder / kName;
+  if (!std::filesystem::exists(file))
+    throw DataError(fmt::format("{} is missing; run veldt plan again", file.string()));
+  const Json json = read_json(file);
+  bool is_sound = json.is_object();
+  if (is_sound)
+    for (const auto& [name, sum] : json.items())
+      is_sound = is_sound && sum.is_string() && RelativeName::of(name).has_value();
+  if (!is_sound) throw DataError(fmt::format("{} is damaged; run veldt plan again", file.string()));
+  return json.get<Sums>();
+}
+
+std::vector<std::string> names_of(const Sums& sums) {
+  std::vector<std::string> names;
+  for (const auto& [name, sum] : sums) names.push_back(name);
+  return names;
+}
+
+/// What clips share lies in the folder itself or in a folder that is none of tracks.
+bool is_read_for(const std::string& name, const std::set<std::string>& clips) {
+  const Path path = name;
+  return path.parent_path() != "tracks" || clips.contains(path.stem().string());
+}
+
+/// DataError for the first file that is not as recorded.
+void check(const Path& folder, const std::vector<std::string>& names, const Sums& recorded) {
+  for (const auto& [name, sum] : sums_of(folder, names)) {
+    const auto wanted = recorded.find(name);
+    if (wanted == recorded.end() || wanted->second != sum)
+      throw DataError(fmt::format(
+          "{} is damaged, or of another plan: its SHA-256 is {}; {} has {}; run veldt plan again",
+          (folder / name).string(), sum, kName, wanted == recorded.end() ? "none" : wanted->second));
+  }
+}
+
+}  // namespace
+
+void write_checksums(const Path& folder) {
+  write_file_atomically(folder / kName, to_text(Json(sums_of(folder, names_in(folder)))));
+}
+
+bool has_its_checksums(const Path& folder) {
+  try {
+    const Sums recorded = recorded_in(folder);
+    return sums_of(folder, names_of(recorded)) == recorded;
+  } catch (const Error&) {  // missing, or not to be read
+    return false;
+  }
+}
+
+void check_files(const Path& folder, const std::vector<std::string>& names) {
+  check(folder, names, recorded_in(folder));
+}
+
+void check_files_of_clips(const Path& folder, const std::vector<std::string>& clips) {
+  const Sums recorded = recorded_in(folder);
+  const std::set<std::string> wanted(clips.begin(), clips.end());
+  std::vector<std::string> names = names_of(recorded);
+  std::erase_if(names, [&wanted](const std::string& name) { return !is_read_for(name, wanted); });
+  check(folder, names, recorded);
+}
+
+}  // namespace thermal
