@@ -235,7 +235,7 @@ def test_a_full_disk_ends_the_run_and_finished_clips_stay(veldt, blender):
     stand_in = veldt.folder / "support" / "fake_blender.py"
     taking = (
         'while frame == 2 and clip == "side" and not Path("out/clips/down").exists(): time.sleep(0.02)\n'
-        '        clip == "side" and frame == 2 and Path("out/other").write_bytes(bytes(7000000))\n'
+        '        clip == "side" and frame == 2 and Path("out/other").write_bytes(bytes(6500000))\n'
     )
     held = "        _hold(clip, frame)\n"
     assert held in stand_in.read_text()
