@@ -65,7 +65,9 @@ def _fault(place: Veldt, kind: str, content: str, message: str) -> None:
             file.write_text(content)
         elif other == "sites" and kind == "structures":
             file.write_text(json.dumps(CAMP | {"objects": [{"object": ["lamp_post", "okapi"]}]}))
-    done = place("plan", "config.json", "--out", "plan", "--quiet", env={"VELDT_HOME": str(place.folder / "home")})
+    done = place(
+        "plan", "config.json", "--out", "plan", "--quiet", env={"VELDT_HOME": str(place.folder / "home")}
+    )
     check_fault(done, 2, message)
 
 

@@ -93,7 +93,10 @@ def test_a_home_without_assets(veldt, blender):
 @pytest.mark.parametrize(
     "said, reported",
     [
-        ("echo 'Traceback …' >&2; echo 'ModuleNotFoundError: No module (planner/noise.py:8)' >&2; exit 1", ""),
+        (
+            "echo 'Traceback …' >&2; echo 'ModuleNotFoundError: No module (planner/noise.py:8)' >&2; exit 1",
+            "",
+        ),
         ("exit 1", None),
     ],
 )

@@ -56,7 +56,9 @@ ODD = (
 
 def target_of(suffix: str, folder: Path) -> Callable[[bytes], None]:
     """A function that reads bytes as a flight file with this suffix; ConfigError is the only accepted exception."""
-    files, faults = (importlib.import_module(f"planner.{name}") for name in ("flight.waypoint_files", "faults"))
+    files, faults = (
+        importlib.import_module(f"planner.{name}") for name in ("flight.waypoint_files", "faults")
+    )
     file = folder / f"flight.{suffix}"
 
     def ground_m(x_m, _y_m):

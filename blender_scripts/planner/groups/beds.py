@@ -12,7 +12,10 @@ from ..land.terrain import Terrain
 from ..noise import stream
 from .actors import Actor
 
-_LYING = (0.6, 1.4)  # length and width of the contact with the ground, relative to the standing body: an estimate
+_LYING = (
+    0.6,
+    1.4,
+)  # length and width of the contact with the ground, relative to the standing body: an estimate
 _BESIDE = (0.8, 1.6)  # body lengths from a bed to its animal, an estimate
 _TRIES = 16
 

@@ -10,7 +10,12 @@ from .roads import Road, lay_road
 from .terrain import Terrain, slope_deg
 from .ways import CORNERS, SLOPE_STEP_M, Passable, plan_loop
 
-_RADII = 0.3, 0.26, 0.34, 0.22  # radii to try, as shares of the scene's side; the first with a passable loop is used
+_RADII = (
+    0.3,
+    0.26,
+    0.34,
+    0.22,
+)  # radii to try, as shares of the scene's side; the first with a passable loop is used
 _WANDER = 0.22
 _SHORE_M = 25.0
 _STEEPEST_DEG = 14.0  # estimate: steepest slope that a lorry can drive

@@ -69,7 +69,7 @@ TEST_CASE("Categories with most labels come first, equal ones by name, and those
   set.labels[0].category = 3;
   set.labels[1].category = 2;
   set.labels[2].category = 2;
-  CHECK(category_places(set) == std::vector<std::size_t>{2, 3, 0, 1});
+  CHECK(category_ranks(set) == std::vector<std::size_t>{2, 3, 0, 1});
   const Json figures = label_figures(set);
   CHECK(figures.at("categories") == Json{"b", "c"});
   CHECK(figures.at("unused_categories") == Json{"a", "z"});

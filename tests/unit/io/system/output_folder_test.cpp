@@ -103,7 +103,7 @@ TEST_CASE("What cannot be removed is named, with the reason") {
   const Path impossible = folder / std::string(300, 'x');
   const auto left_over = sweep_folder(impossible);
   REQUIRE(left_over.has_value());
-  CHECK(left_over->place == impossible);
+  CHECK(left_over->location == impossible);
   CHECK(left_over->reason == "File name too long");
 }
 
