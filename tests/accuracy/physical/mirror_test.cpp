@@ -63,6 +63,7 @@ Passes passes() {
   place.plant(small_scene::kTree, shapes::box({-2, 9, -1}, {2, 11, 9}, 0), small_scene::kIdentity);
   BakedScene scene = place.baked();
   scene.objects = manifest().objects;
+  scene.mirrors = {"water"};
   const RayCaster caster(scene);
   small_scene::Clip clip = {.camera_to_world = {kPose}, .poses = {}};
   const BakedTrack track = clip.baked();
