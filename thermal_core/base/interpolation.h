@@ -16,7 +16,7 @@ struct BetweenNodes {
   double share_of_high = 0;  ///< 0 to 1
 };
 
-/// @param place  in steps from the first node; clamped to the nodes
+/// @param position  in steps from the first node; clamped to the nodes
 /// @param nodes  at least 1
 [[nodiscard]] inline BetweenNodes between_nodes(double position, std::size_t nodes) noexcept {
   const auto last = static_cast<double>(nodes - 1);
