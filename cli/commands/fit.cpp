@@ -100,7 +100,7 @@ void print_forest(const char* what, const thermal::FittedForest& forest) {
 }
 
 void print_fit(const thermal::Fit& fit) {
-  print("{} trials; {} real frames were fitted by {} made ones, and {} judge\n", fit.trials, fit.real_fitted,
+  print("{} trials; {} real frames fitted with {} made ones, {} held out\n", fit.trials, fit.real_fitted,
         fit.made, fit.real_judging);
   print("distance from the frames that were fitted: {:.3f} before, {:.3f} after\n", fit.distance_before,
         fit.distance_after);
@@ -179,11 +179,10 @@ void add_fit(CLI::App& app, Session& session) {
                   "Fit a config's gain, optics, noise, sharpening, link, codec and lens to real frames");
   command->footer(
       "A few clips of the config are rendered once, then exposed with other settings in each trial, until\n"
-      "the measures of `veldt compare` differ from those of the real frames as little as may be. Half of "
-      "the\n"
-      "real frames are fitted, the others judge: the table says how well each measure alone, and a\n"
-      "classifier, tell them from made frames before and after. The size of targets, by the lens, needs\n"
-      "labels; all else does not.\n"
+      "the measures of `veldt compare` differ from those of the real frames as little as may be. Half of\n"
+      "the real frames are fitted, the others are held out: a table says how well each measure alone, and\n"
+      "a classifier, separate them from made frames before and after. The size of targets, by the lens,\n"
+      "needs labels; all else does not.\n"
       "Example: veldt fit real_frames --config my.json --out fitted.json");
   auto options = std::make_shared<FitArguments>();
   command->add_option("real", options->real, "Real frames: a folder of grey pictures, or a Veldt dataset")
@@ -206,7 +205,8 @@ void add_fit(CLI::App& app, Session& session) {
   command->add_option("--frames", options->request.most_frames, "Most real frames, evenly spaced")
       ->capture_default_str();
   command->add_option("--trials", options->request.trials, "How many settings to try")->capture_default_str();
-  command->add_option("--seed", options->request.seed, "Which real frames judge")->capture_default_str();
+  command->add_option("--seed", options->request.seed, "Which real frames are held out")
+      ->capture_default_str();
   add_settings(command, options->settings);
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &session] {

@@ -11,7 +11,7 @@
 namespace thermal {
 namespace {
 
-constexpr std::size_t kMotionRowsAChunk = 16;
+constexpr std::size_t kMotionRowsPerChunk = 16;
 constexpr float kMostMotionPx = 4096;
 constexpr float kApartPx = 0.25F;  // least difference between the motions of an actor and its background
 constexpr int kLongestTrailPx = 256;
@@ -245,7 +245,8 @@ void MotionFinder::find(const Passes& passes, const Step& step, ImageMotion& out
   }
   out.x_px.resize(camera_.width_px, camera_.height_px);
   out.y_px.resize(camera_.width_px, camera_.height_px);
-  parallel_rows(camera_.height_px, kMotionRowsAChunk, [&](int y) { find_row(passes.depth_m, step, y, out); });
+  parallel_rows(camera_.height_px, kMotionRowsPerChunk,
+                [&](int y) { find_row(passes.depth_m, step, y, out); });
   if (!step.actors.empty()) move_actors(passes, step, out);
 }
 

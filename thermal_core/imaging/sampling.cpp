@@ -11,7 +11,7 @@
 namespace thermal {
 namespace {
 
-constexpr std::size_t kRowsAChunk = 8;
+constexpr std::size_t kRowsPerChunk = 8;
 
 /// Offsets from a pixel to its right and lower neighbours; 0 in a picture one pixel wide or high.
 struct Steps {
@@ -54,7 +54,7 @@ ResampleMap::ResampleMap(const CameraIntrinsics& camera, int overscan_px, const 
   corner_.resize(pixels);
   x_share_.resize(pixels);
   y_share_.resize(pixels);
-  parallel_rows(height_px_, kRowsAChunk, [&](int y) { place_row(camera, lens, y); });
+  parallel_rows(height_px_, kRowsPerChunk, [&](int y) { place_row(camera, lens, y); });
 }
 
 void ResampleMap::place_row(const CameraIntrinsics& camera, const LensDistortion& lens, int y) {
@@ -88,7 +88,7 @@ void ResampleMap::resample_linear(const Plane<float>& in, Plane<float>& out) con
   if (corner_.empty()) return crop(in, out);
   const Steps steps = steps_of(in);
   const auto width = static_cast<std::size_t>(width_px_);
-  parallel_rows(height_px_, kRowsAChunk, [&](int y) {
+  parallel_rows(height_px_, kRowsPerChunk, [&](int y) {
     const std::size_t begin = static_cast<std::size_t>(y) * width;
     interpolate(in.pixels().data(), steps, &corner_[begin], &x_share_[begin], &y_share_[begin],
                 out.row(y).data(), width);
@@ -103,7 +103,7 @@ Plane<std::uint16_t> ResampleMap::resample_nearest(const Plane<std::uint16_t>& i
     return out;
   }
   const auto width = static_cast<std::size_t>(width_px_);
-  parallel_rows(height_px_, kRowsAChunk, [&](int y) {
+  parallel_rows(height_px_, kRowsPerChunk, [&](int y) {
     const std::size_t begin = static_cast<std::size_t>(y) * width;
     for (std::size_t x = 0; x < width; ++x)
       out.at(static_cast<int>(x), y) = in.pixels()[nearest(begin + x, in)];
@@ -180,7 +180,7 @@ Plane<std::uint16_t> block_actors(const Plane<std::uint16_t>& fine, int factor,
 
 namespace {
 
-constexpr std::size_t kQuarterRowsAChunk = 16;
+constexpr std::size_t kQuarterRowsPerChunk = 16;
 
 bool is_resampled(const Manifest& manifest, const LensDistortion& lens) {
   return manifest.overscan_px > 0 || (!lens.is_none() && lens != manifest.lens);
@@ -245,7 +245,7 @@ void mean_quarters(const Plane<float>& fine, int factor, Plane<float>& means, Su
   means.resize(fine.width_px() / factor, fine.height_px() / factor);
   clear_detail(means.width_px(), means.height_px(), detail);
   const auto rows = static_cast<std::size_t>(means.height_px());
-  parallel_for(rows, kQuarterRowsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(rows, kQuarterRowsPerChunk, [&](std::size_t begin, std::size_t end) {
     QuarterSums sums(factor);
     for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       sums.begin(means.row(y).size());

@@ -29,9 +29,9 @@ std::vector<float> sunlit_cells(const GroundMaps& maps, const DayWeather& day, d
     low[bits] = sunlit_share(memory, bits);
     high[bits] = sunlit_share(memory, bits << kHalf);
   }
-  constexpr std::size_t kCellsAChunk = 16384;
+  constexpr std::size_t kCellsPerChunk = 16384;
   std::vector<float> share(found->hours.size());
-  parallel_for(share.size(), kCellsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(share.size(), kCellsPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t cell = begin; cell < end; ++cell) {
       const std::uint32_t hours = found->hours[cell];
       share[cell] = low[hours & 0xFFFU] + high[hours >> kHalf & 0xFFFU];

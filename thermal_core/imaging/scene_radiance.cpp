@@ -17,7 +17,7 @@
 namespace thermal {
 namespace {
 
-constexpr std::size_t kSceneRowsAChunk = 8;
+constexpr std::size_t kSceneRowsPerChunk = 8;
 
 /// In single precision, as the planes, so that pixels of the brightest material have exactly the brightest level.
 float emitted(const Material& material, Season season, const SceneRadiance::RadianceOf& radiance_of) {
@@ -65,9 +65,9 @@ bool knows_ground(const SceneHeat& heat) { return heat.ground.has_value(); }
 template <typename Work>
 PassChecks sum_over_rows(int rows, const Work& work) {
   const auto count = static_cast<std::size_t>(rows);
-  std::vector<PassChecks> checks((count + kSceneRowsAChunk - 1) / kSceneRowsAChunk);
-  parallel_for(count, kSceneRowsAChunk, [&](std::size_t begin, std::size_t end) {
-    checks[begin / kSceneRowsAChunk] = work(static_cast<int>(begin), static_cast<int>(end));
+  std::vector<PassChecks> checks((count + kSceneRowsPerChunk - 1) / kSceneRowsPerChunk);
+  parallel_for(count, kSceneRowsPerChunk, [&](std::size_t begin, std::size_t end) {
+    checks[begin / kSceneRowsPerChunk] = work(static_cast<int>(begin), static_cast<int>(end));
   });
   PassChecks sum;
   for (const PassChecks& chunk : checks) sum += chunk;

@@ -19,7 +19,7 @@
 namespace thermal::python {
 namespace {
 
-constexpr std::size_t kValuesAChunk = 256;
+constexpr std::size_t kValuesPerChunk = 256;
 
 /// Applies `function` to every value, on all cores.
 template <typename Function>
@@ -30,7 +30,7 @@ py::array_t<double> mapped(const py::object& given, const char* what, const Func
   double* const out = results.mutable_data();
   const auto count = static_cast<std::size_t>(values.size());
   const py::gil_scoped_release others_run;
-  parallel_for(count, kValuesAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(count, kValuesPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) out[i] = function(in[i]);
   });
   return results;
@@ -52,7 +52,7 @@ class Band {
     float* const out = results.mutable_data();
     const py::gil_scoped_release others_run;
     std::call_once(tabulated_, [this] { table_.emplace(reference_); });
-    parallel_for(count, kValuesAChunk, [&](std::size_t begin, std::size_t end) {
+    parallel_for(count, kValuesPerChunk, [&](std::size_t begin, std::size_t end) {
       table_->radiances({in + begin, end - begin}, {out + begin, end - begin});
     });
     return results;

@@ -19,7 +19,7 @@
 namespace thermal::python {
 namespace {
 
-constexpr std::size_t kPlacesAChunk = 256;
+constexpr std::size_t kPlacesPerChunk = 256;
 
 Season season_of(const std::string& name) {
   for (const Season season : {Season::winter, Season::summer})
@@ -63,7 +63,7 @@ class Day {
     const py::gil_scoped_release others_run;
     const HeatOfMoment moment = heat_.at(solar_h, {material});
     const MaterialMoment& heat = moment.materials.at(material);
-    parallel_for(count, kPlacesAChunk, [&](std::size_t begin, std::size_t end) {
+    parallel_for(count, kPlacesPerChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const double* const normal = normals.data() + 3 * i;
         out[i] = heat.temperature_k({.normal = {normal[0], normal[1], normal[2]},

@@ -17,7 +17,7 @@ namespace thermal {
 namespace {
 
 constexpr std::size_t kTemperaturesABlock = 256;
-constexpr std::size_t kKnotsAChunk = 16;
+constexpr std::size_t kKnotsPerChunk = 16;
 
 /// The reference is evaluated at every fourth node; ln L is a cubic in between.
 constexpr std::size_t kNodesAKnot = 4;
@@ -41,7 +41,7 @@ double between(const BandValue& below, const BandValue& above, double share) noe
 
 RadianceTable::RadianceTable(BandRadiance band) : band_(std::move(band)) {
   std::vector<BandValue> knots(kSteps / kNodesAKnot + 1);
-  parallel_for(knots.size(), kKnotsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(knots.size(), kKnotsPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t knot = begin; knot < end; ++knot)
       knots[knot] = band_.evaluate(node_k(static_cast<double>(knot * kNodesAKnot)));
   });
@@ -119,7 +119,7 @@ namespace {
 
 constexpr int kSteps = 8192;
 constexpr std::size_t kRadiancesABlock = 256;
-constexpr std::size_t kRadianceNodesAChunk = 128;
+constexpr std::size_t kRadianceNodesPerChunk = 128;
 
 struct Nodes {
   float low_w_m2_sr;
@@ -203,7 +203,7 @@ TemperatureTable::TemperatureTable(Inverse inverse, double low_w_m2_sr, double h
   };
   nodes_k_.resize(kSteps + 2);
   std::vector<double> middles_k(kSteps);
-  parallel_for(kSteps, kRadianceNodesAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(kSteps, kRadianceNodesPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t node = begin; node < end; ++node) {
       nodes_k_[node] = static_cast<float>(inverse_(radiance_at(static_cast<double>(node))));
       middles_k[node] = inverse_(radiance_at(static_cast<double>(node) + 0.5));

@@ -40,7 +40,8 @@ struct TriangleSight {
   std::array<Vector3, 3> normal{};  ///< of the corners, of any size; 0: flat
 };
 
-/// Of a triangle of a mesh, with the normals of its corners, in the mesh's axes; flat triangles have normals of 0.
+/// Prepares a triangle of a mesh, with the normals of its corners, both in the mesh's axes; flat triangles have normals
+/// of 0.
 [[nodiscard]] TriangleSight sight_of(const View& view, const std::array<double, 12>& transform,
                                      const std::array<Vector3, 3>& corner_m,
                                      const std::array<Vector3, 3>& normal) noexcept;

@@ -51,8 +51,8 @@ void add_octave(std::uint32_t seed, int octave, double amplitude, std::vector<do
     }
     return sum;
   };
-  constexpr std::size_t kTexelsAChunk = 16 * kTexels;
-  parallel_for(field.size(), kTexelsAChunk, [&](std::size_t begin, std::size_t end) {
+  constexpr std::size_t kTexelsPerChunk = 16 * kTexels;
+  parallel_for(field.size(), kTexelsPerChunk, [&](std::size_t begin, std::size_t end) {
     for (auto texel = static_cast<int>(begin); texel < static_cast<int>(end); ++texel)
       field[static_cast<std::size_t>(texel)] += amplitude * value_at(texel % kTexels, texel / kTexels);
   });

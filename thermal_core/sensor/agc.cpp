@@ -13,7 +13,7 @@
 namespace thermal {
 namespace {
 
-constexpr std::size_t kMarkedRowsAChunk = 32;
+constexpr std::size_t kMarkedRowsPerChunk = 32;
 
 VELDT_INLINE std::int32_t size_of(std::int32_t difference) {
   return difference < 0 ? -difference : difference;
@@ -51,7 +51,7 @@ void mark_information(const Plane<std::uint16_t>& ir16, double threshold_counts,
   marks.resize(ir16.width_px(), ir16.height_px());
   constexpr double kLargestSum = 3 * 65535;
   const auto threshold = static_cast<std::int32_t>(std::min(kLargestSum, std::floor(3 * threshold_counts)));
-  parallel_rows(ir16.height_px(), kMarkedRowsAChunk,
+  parallel_rows(ir16.height_px(), kMarkedRowsPerChunk,
                 [&](int y) { mark_row(ir16, y, threshold, marks.row(y).data()); });
 }
 
@@ -61,7 +61,7 @@ constexpr std::size_t kCounts = 65536;
 constexpr double kLargestLevel = 255;
 constexpr std::size_t kClipped = kCounts - 1;
 constexpr double kBinK = 0.04;  // of the plateau's histogram: about a NETD
-constexpr std::size_t kCountsAChunk = 65536;
+constexpr std::size_t kCountsPerChunk = 65536;
 
 std::uint16_t threshold(double count) {
   return static_cast<std::uint16_t>(std::clamp(std::ceil(count), 1.0, static_cast<double>(kClipped)));
@@ -286,7 +286,7 @@ void apply_tone_curve(const ToneCurve& curve, Polarity polarity, const Plane<std
   const std::uint8_t* const levels = table.data();
   const std::uint16_t* const in = ir16.pixels().data();
   std::uint8_t* const out = ir8.pixels().data();
-  parallel_for(ir16.size(), kCountsAChunk, [=](std::size_t begin, std::size_t end) {
+  parallel_for(ir16.size(), kCountsPerChunk, [=](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) out[i] = levels[in[i]];
   });
 }

@@ -16,7 +16,7 @@
 namespace thermal {
 namespace {
 
-constexpr std::size_t kLinesAChunk = 16;
+constexpr std::size_t kLinesPerChunk = 16;
 constexpr float kWhiteLevel = 255;
 
 /// Standard deviation [px] of the Gaussian that attenuates amplitudes at the bandwidth to a half.
@@ -191,13 +191,13 @@ void AnalogueLink::transmit(const Scan& scan, Plane<std::uint8_t>& picture) {
   assert(picture.width_px() == width_px_ && picture.height_px() == height_px_);
   const std::uint32_t frame = frame_++;
   draw_lines(frame);
-  parallel_rows(lines_, kLinesAChunk, [&](int line) {
+  parallel_rows(lines_, kLinesPerChunk, [&](int line) {
     std::vector<float> levels(static_cast<std::size_t>(width_px_));
     scan(line, levels);
     send(frame, line, levels);
   });
   drop(frame);
-  parallel_rows(height_px_, kLinesAChunk, [&](int y) { record(y, picture.row(y)); });
+  parallel_rows(height_px_, kLinesPerChunk, [&](int y) { record(y, picture.row(y)); });
 }
 
 /// Draws errors of a frame's lines: those of a field are correlated in time.

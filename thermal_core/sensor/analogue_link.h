@@ -103,9 +103,9 @@ class AnalogueLink {
   Noise noise_;
   double hum_turns_;  ///< at the clip's beginning
   std::uint32_t frame_ = 0;
-  std::vector<float> line_levels_;   ///< errors of this frame's lines,
+  std::vector<float> line_levels_;   ///< level error of each line of this frame
   std::vector<float> line_streaks_;  ///< initial state of the streaks, in standard deviations
-  std::vector<float> line_px_;       ///< and their shift to the right
+  std::vector<float> line_px_;       ///< shift of each line to the right
   Plane<std::uint8_t> received_;     ///< lines
 };
 

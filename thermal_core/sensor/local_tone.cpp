@@ -47,7 +47,7 @@ std::vector<double> equalised_levels(const LevelBins& bins, std::size_t first,
 namespace {
 
 constexpr std::uint16_t kSaturatedCount = 65535;
-constexpr std::size_t kToneRowsAChunk = 16;
+constexpr std::size_t kToneRowsPerChunk = 16;
 
 /// First pixel of a tile, of `tiles` over `size_px` pixels.
 int tile_begin(std::size_t tile, std::size_t tiles, int size_px) {
@@ -151,7 +151,7 @@ LocalTone::Between LocalTone::between(int at_px, int size_px, std::size_t tiles)
 void LocalTone::show(const Plane<std::uint16_t>& ir16, Plane<std::uint8_t>& ir8) const {
   std::vector<Between> columns;
   for (int x = 0; x < ir16.width_px(); ++x) columns.push_back(between(x, ir16.width_px(), across_));
-  parallel_rows(ir16.height_px(), kToneRowsAChunk, [&](int y) { show_row(ir16, y, columns, ir8); });
+  parallel_rows(ir16.height_px(), kToneRowsPerChunk, [&](int y) { show_row(ir16, y, columns, ir8); });
 }
 
 void LocalTone::show_row(const Plane<std::uint16_t>& ir16, int y, const std::vector<Between>& columns,

@@ -13,8 +13,8 @@
 namespace thermal {
 namespace {
 
-constexpr std::size_t kFilteredPixelsAChunk = 16384;
-constexpr std::size_t kFilteredRowsAChunk = 32;
+constexpr std::size_t kFilteredPixelsPerChunk = 16384;
+constexpr std::size_t kFilteredRowsPerChunk = 32;
 
 VELDT_CLONES void subtract(const float* signal, const float* mean, std::size_t count, float* change) {
   for (std::size_t i = 0; i < count; ++i) change[i] = signal[i] - mean[i];
@@ -53,7 +53,7 @@ void TemporalFilter::apply(Plane<float>& signal_w_m2_sr) {
   const auto signal = signal_w_m2_sr.pixels();
   if (mean_.empty()) mean_.assign(signal.begin(), signal.end());
   take_changes(signal_w_m2_sr);
-  parallel_rows(signal_w_m2_sr.height_px(), kFilteredRowsAChunk,
+  parallel_rows(signal_w_m2_sr.height_px(), kFilteredRowsPerChunk,
                 [&](int y) { follow_row(y, signal_w_m2_sr); });
 }
 
@@ -61,7 +61,7 @@ void TemporalFilter::take_changes(const Plane<float>& signal_w_m2_sr) {
   change_.resize(signal_w_m2_sr.width_px(), signal_w_m2_sr.height_px());
   const auto signal = signal_w_m2_sr.pixels();
   const auto change = change_.pixels();
-  parallel_for(signal.size(), kFilteredPixelsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(signal.size(), kFilteredPixelsPerChunk, [&](std::size_t begin, std::size_t end) {
     subtract(&signal[begin], &mean_[begin], end - begin, &change[begin]);
   });
 }
@@ -80,7 +80,7 @@ void TemporalFilter::follow_row(int y, Plane<float>& signal_w_m2_sr) {
 
 namespace {
 
-constexpr std::size_t kProcessedRowsAChunk = 32;
+constexpr std::size_t kProcessedRowsPerChunk = 32;
 
 VELDT_CLONES void set_counts(const std::uint16_t* in, std::size_t size, float weight, float* out) {
   for (std::size_t i = 0; i < size; ++i)
@@ -142,7 +142,7 @@ Processing::Processing(const ProcessingParameters& parameters)
 const Plane<std::uint16_t>& Processing::filter(const Plane<std::uint16_t>& ir16) {
   if (blur_.empty() && noise_filter_.size() == 1) return ir16;
   filtered_.resize(ir16.width_px(), ir16.height_px());
-  parallel_rows(ir16.height_px(), kProcessedRowsAChunk, [&](int y) {
+  parallel_rows(ir16.height_px(), kProcessedRowsPerChunk, [&](int y) {
     std::vector<float> down(static_cast<std::size_t>(ir16.width_px()));
     std::vector<float> padded;
     const auto blur = [&](const HalfKernel& kernel) {
@@ -162,7 +162,7 @@ const Plane<std::uint16_t>& Processing::filter(const Plane<std::uint16_t>& ir16)
 
 namespace {
 
-constexpr std::size_t kDetailRowsAChunk = 16;
+constexpr std::size_t kDetailRowsPerChunk = 16;
 
 VELDT_CLONES void add_counts(const std::uint16_t* counts, std::size_t size, double* sum, double* squares) {
   for (std::size_t i = 0; i < size; ++i) {
@@ -278,12 +278,12 @@ void find_detail(const Plane<std::uint16_t>& ir16, int radius_px, double edge_co
   const Window window = {.width_px = ir16.width_px(), .height_px = ir16.height_px(), .radius_px = radius_px};
   Plane<float> gain(window.width_px, window.height_px);
   Plane<float> offset(window.width_px, window.height_px);
-  parallel_rows(window.height_px, kDetailRowsAChunk, [&](int y) {
+  parallel_rows(window.height_px, kDetailRowsPerChunk, [&](int y) {
     fit_row(ir16, window, y, edge_counts * edge_counts, gain.row(y).data(), offset.row(y).data());
   });
   detail_counts.resize(window.width_px, window.height_px);
   const auto per_pixel = static_cast<float>(1 / window.pixels());
-  parallel_rows(window.height_px, kDetailRowsAChunk, [&](int y) {
+  parallel_rows(window.height_px, kDetailRowsPerChunk, [&](int y) {
     std::vector<float> gains(static_cast<std::size_t>(window.width_px));
     std::vector<float> offsets(gains.size());
     sum_row(gain, window, y, gains);
@@ -306,7 +306,7 @@ void DetailEnhancer::sharpen(const Plane<std::uint16_t>& ir16, Plane<std::uint8_
   const double sign = is_inverted_ ? -1 : 1;
   const auto levels_per_count = static_cast<float>(sign * parameters_.gain_dn_per_netd / counts_per_netd_);
   const auto noise_counts = static_cast<float>(parameters_.noise_netd * counts_per_netd_);
-  parallel_rows(ir16.height_px(), kDetailRowsAChunk, [&](int y) {
+  parallel_rows(ir16.height_px(), kDetailRowsPerChunk, [&](int y) {
     add_detail(ir16.row(y).data(), detail_counts_.row(y).data(), ir8.row(y).size(), levels_per_count,
                noise_counts, darkest_, brightest_, ir8.row(y).data());
   });

@@ -96,9 +96,9 @@ enum class Polarity { white_hot, black_hot };
 /// Sharpening of the 8-bit picture.
 struct DetailParameters {
   double gain_dn_per_netd = 0;  ///< 8-bit counts added per NETD of detail; 0: none
-  int radius_px = 3;            ///< of the window around a pixel, whose mean is not detail
+  int radius_px = 3;            ///< of the window whose mean is subtracted
   double edge_netd = 10;        ///< standard deviation of a window beyond which it holds an edge, not detail
-  double noise_netd = 4;        ///< of detail, that may be noise and is not added
+  double noise_netd = 4;        ///< detail below this is taken as noise and not added
 
   [[nodiscard]] bool operator==(const DetailParameters&) const = default;
 };
@@ -152,9 +152,9 @@ struct SensorParameters {
   OpticsParameters optics;
   double time_constant_s = 0;  ///< thermal time constant of a pixel; 0: none
   double readout_s = 0;        ///< from reading the first row to reading the last; 0: simultaneous
-  double netd_mk = 40;         ///< white temporal noise of a pixel as a temperature difference at 300 K …
+  double netd_mk = 40;         ///< white temporal noise of a pixel as a temperature difference at 300 K
   double native_rate_hz = 0;   ///< of the sensor; a video shows every n-th of its frames; 0: every frame
-  double netd_f_number = 1;    ///< … behind a lens of this f-number
+  double netd_f_number = 1;    ///< at which netd_mk is stated
   NoiseParameters noise;
   ShutterParameters shutter;
   HousingParameters housing;

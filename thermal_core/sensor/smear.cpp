@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kTileWidth = 32;
 constexpr int kTileHeight = 16;
-constexpr std::size_t kTileRowsAChunk = 4;
+constexpr std::size_t kTileRowsPerChunk = 4;
 // Of motion within Smear's reach:
 constexpr float kStillPx = 1.0F / 64;  // ignored
 constexpr float kAlikePx = 1.0F / 8;   // difference within a tile that has one motion
@@ -230,7 +230,7 @@ void Smear::apply(const ImageMotion& motion, Plane<float>& picture, double ages,
   assert(motion.x_px.size() == picture.size() && motion.y_px.size() == picture.size());
   const int rows = (picture.height_px() + kTileHeight - 1) / kTileHeight;
   pieces_.resize(static_cast<std::size_t>(rows));
-  parallel_rows(rows, kTileRowsAChunk, [&](int row) {
+  parallel_rows(rows, kTileRowsPerChunk, [&](int row) {
     std::vector<Piece>& pieces = pieces_[static_cast<std::size_t>(row)];
     pieces.clear();
     Cutter cutter(motion, reach_, readout_, pieces);
@@ -242,7 +242,7 @@ void Smear::apply(const ImageMotion& motion, Plane<float>& picture, double ages,
   if (std::ranges::all_of(pieces_, [](const auto& row) { return row.empty(); })) return;
   copy_with_margin(picture, sharp_);
   find_samples(ages, intervals);
-  parallel_rows(rows, kTileRowsAChunk, [&](int row) {
+  parallel_rows(rows, kTileRowsPerChunk, [&](int row) {
     for (const Piece& piece : pieces_[static_cast<std::size_t>(row)]) mix(piece, picture);
   });
 }

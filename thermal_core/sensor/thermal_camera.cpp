@@ -19,7 +19,7 @@ namespace {
 constexpr double kNetdTemperatureK = 300;  // at which a NETD is stated
 constexpr double kHottestSceneK = 6000;
 constexpr float kLargestCount = 65535;
-constexpr std::size_t kPixelsAChunk = 16384;
+constexpr std::size_t kPixelsPerChunk = 16384;
 constexpr std::size_t kPixelsABlock = FlickerNoise::kBlockPixels;
 
 float netd_w_m2_sr(const SensorParameters& parameters) {
@@ -77,9 +77,9 @@ struct MeanAndDeviation {
 MeanAndDeviation statistics_of(const Plane<float>& picture) {
   const auto pixels = picture.pixels();
   const double middle = static_cast<double>(pixels.front());  // any value of the picture's order of magnitude
-  std::vector<Moments> chunks((pixels.size() + kPixelsAChunk - 1) / kPixelsAChunk);
-  parallel_for(pixels.size(), kPixelsAChunk, [&](std::size_t begin, std::size_t end) {
-    Moments& moments = chunks[begin / kPixelsAChunk];
+  std::vector<Moments> chunks((pixels.size() + kPixelsPerChunk - 1) / kPixelsPerChunk);
+  parallel_for(pixels.size(), kPixelsPerChunk, [&](std::size_t begin, std::size_t end) {
+    Moments& moments = chunks[begin / kPixelsPerChunk];
     for (const float pixel : pixels.subspan(begin, end - begin)) {
       const double difference = static_cast<double>(pixel) - middle;
       moments.sum += difference;
@@ -305,7 +305,7 @@ void ThermalCamera::take_in(const Plane<float>& radiance_w_m2_sr, const Subpixel
   assert(detail.empty() || clip_.sampling.quarters);
   const auto in = radiance_w_m2_sr.pixels();
   const auto signal = signal_.pixels();
-  parallel_for(in.size(), kPixelsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(in.size(), kPixelsPerChunk, [&](std::size_t begin, std::size_t end) {
     copy_clipped(&in[begin], end - begin, brightest_taken_w_m2_sr_, &signal[begin]);
   });
   optics_.apply(detail, signal_);
@@ -332,7 +332,7 @@ void ThermalCamera::lag(std::size_t first, std::span<float> signal) {
 template <typename Work>
 void ThermalCamera::for_blocks(const Work& work) {
   const auto signal = signal_.pixels();
-  parallel_for(signal.size(), kPixelsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(signal.size(), kPixelsPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t first = begin; first < end; first += kPixelsABlock)
       work(first, signal.subspan(first, std::min(kPixelsABlock, end - first)));
   });
@@ -361,7 +361,7 @@ void ThermalCamera::count(double error_k, Plane<std::uint16_t>& ir16) const {
   const auto counts_per_kelvin = static_cast<float>(1 / parameters_.kelvin_per_count);
   const auto signal = signal_.pixels();
   const auto out = ir16.pixels();
-  parallel_for(signal.size(), kPixelsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(signal.size(), kPixelsPerChunk, [&](std::size_t begin, std::size_t end) {
     std::array<float, kPixelsABlock> radiances{};
     std::array<float, kPixelsABlock> temperatures_k{};
     for (std::size_t first = begin; first < end; first += kPixelsABlock) {

@@ -33,7 +33,8 @@ constexpr std::array<Figure<FrameFigures>, 7> kGrey = {{
     {"1st percentile", "levels", [](const FrameFigures& f) { return std::optional(f.grey.low); }},
     {"99th percentile", "levels", [](const FrameFigures& f) { return std::optional(f.grey.high); }},
     {"dynamic range", "levels", [](const FrameFigures& f) { return std::optional(f.grey.range()); }},
-    {"empty levels between", "", [](const FrameFigures& f) { return std::optional(f.grey.empty_share); }},
+    {"empty levels of the histogram", "",
+     [](const FrameFigures& f) { return std::optional(f.grey.empty_share); }},
     {"roughness of histogram", "", [](const FrameFigures& f) { return std::optional(f.grey.roughness); }},
 }};
 
@@ -74,7 +75,8 @@ constexpr std::array<Figure<FrameFigures>, 3> kNoise = {{
 constexpr std::array<Figure<FrameFigures>, 5> kStructure = {{
     {"power at .08-.16 over .02-.04 /px", "log10", fine_over_coarse},
     {"stripes of rows", "log10", [](const FrameFigures& f) { return f.structure.stripes; }},
-    {"warm over dark spots", "log10", [](const FrameFigures& f) { return std::optional(f.structure.spots); }},
+    {"ratio of warm to dark spots", "log10",
+     [](const FrameFigures& f) { return std::optional(f.structure.spots); }},
     {"wavelet kurtosis", "", [](const FrameFigures& f) { return f.structure.tails; }},
     {"longest straight line", "px", [](const FrameFigures& f) { return std::optional(f.structure.line_px); }},
 }};
@@ -94,7 +96,7 @@ constexpr std::array<Figure<TargetCrop>, 9> kCrop = {{
     {"ring deviation", "levels", [](const TargetCrop& c) { return std::optional(c.ring_deviation); }},
     {"gradient variance", "", [](const TargetCrop& c) { return std::optional(c.gradient_variance); }},
     {"entropy", "bits", [](const TargetCrop& c) { return std::optional(c.entropy_bits); }},
-    {"level 252 and above", "", [](const TargetCrop& c) { return std::optional(c.white_share); }},
+    {"share at level 252 and above", "", [](const TargetCrop& c) { return std::optional(c.white_share); }},
     {"blob width / box width", "", width_ratio},
     {"blob height / box height", "", height_ratio},
 }};

@@ -28,7 +28,7 @@ namespace thermal {
 [[nodiscard]] SkippedFrame skipped_frame(const ClipPasses& passes, int frame,
                                          const std::exception_ptr& fault);
 
-/// The message for a clip if none of its `count` frames could be converted; `first` is the first one's fault.
+/// The message for a clip if none of its `count` frames could be converted; `first` is the first frame's message.
 [[nodiscard]] std::string no_frame_left(const std::string& first, int count);
 
 /// Whether any of a clip's skipped frames can be converted now, for a task. Reads only those, up to the first

@@ -28,13 +28,13 @@ std::int64_t size_bytes(const Path& file) {
 
 }  // namespace
 
-std::int64_t ClipSpace::Files::bytes_a_frame() const {
+std::int64_t ClipSpace::Files::bytes_per_frame() const {
   return count == 0 ? worst_bytes : (bytes + count - 1) / count;
 }
 
 std::int64_t ClipSpace::needed_bytes() const {
-  return (frames - passes.count) * passes.bytes_a_frame() +
-         (frames - pictures.count) * pictures.bytes_a_frame();
+  return (frames - passes.count) * passes.bytes_per_frame() +
+         (frames - pictures.count) * pictures.bytes_per_frame();
 }
 
 ClipSpace space_for(const Config& config, const ClipConfig& clip, const ClipFiles& files) {

@@ -26,7 +26,7 @@ struct ClipSpace {
       ++count;
     }
     /// The mean of the existing ones, rounded up; the worst case without any.
-    [[nodiscard]] std::int64_t bytes_a_frame() const;
+    [[nodiscard]] std::int64_t bytes_per_frame() const;
   };
 
   int frames = 0;
@@ -87,7 +87,7 @@ class RunMonitor {
   void begin(const ClipConfig& clip);
   void frame_done(const std::string& clip);
   void made(const ClipConfig& clip);
-  /// `killed`: because Blender was.
+  /// `killed`: whether it failed because Blender was killed.
   void lost(const ClipConfig& clip, const std::string& why, bool killed);
   void restarted(const std::string& clip, const std::string& why);
 

@@ -124,7 +124,7 @@ constexpr float kMeanStones = 0.01F;
 constexpr float kGathered = 0.8F;  // the same for litter, whose temperature is closer to soil's
 constexpr float kMostGathered = 0.9F;
 
-constexpr std::size_t kMixRowsAChunk = 32;
+constexpr std::size_t kMixRowsPerChunk = 32;
 
 /// Divides what is left by successive shares, as bytes.
 class Left {
@@ -243,7 +243,7 @@ std::vector<GroundMix> ground_mixture(const GroundMaps& maps, const CutWindow& w
   const CutCovers covers(maps.covers, window);
   const BelowCrowns below_crowns(maps, window);
   std::vector<GroundMix> cells(area.width * area.height);
-  parallel_for(area.height, kMixRowsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(area.height, kMixRowsPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin * area.width; i < end * area.width; ++i) {
       const std::size_t x = i % area.width;
       const std::size_t y = i / area.width;

@@ -131,7 +131,7 @@ struct Octave {
   }
 };
 
-constexpr std::size_t kNoiseRowsAChunk = 64;
+constexpr std::size_t kNoiseRowsPerChunk = 64;
 
 void add_octave(const GroundWindow& window, double spacing, float amplitude, std::uint32_t seed,
                 std::uint32_t stream, std::uint32_t number, std::vector<float>& noise) {
@@ -141,7 +141,7 @@ void add_octave(const GroundWindow& window, double spacing, float amplitude, std
   const auto columns = static_cast<std::size_t>(xs.back().point + 2 - low_x) + 1;
   const Octave octave = {
       .seed = seed, .stream = stream, .number = number, .low_x = low_x, .columns = columns};
-  parallel_for(window.height, kNoiseRowsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(window.height, kNoiseRowsPerChunk, [&](std::size_t begin, std::size_t end) {
     const std::int64_t low_y = ys[begin].point - 1;
     const std::vector<float> lattice =
         octave.rows(low_y, static_cast<std::size_t>(ys[end - 1].point + 2 - low_y) + 1);

@@ -38,8 +38,8 @@ constexpr double kFabricM = 2;
 constexpr double kFinestFabricM = 0.25;
 // Share of a part's variation within 2 m, set so that ground is as uneven as in night frames of HIT-UAV.
 constexpr float kFabricSpread = 0.5F;
-constexpr std::size_t kGroundRowsAChunk = 16;
-constexpr std::size_t kGroundCellsAChunk = 4096;
+constexpr std::size_t kGroundRowsPerChunk = 16;
+constexpr std::size_t kGroundCellsPerChunk = 4096;
 
 /// Normals of grids of heights, from the slopes between a cell's neighbours.
 class Slopes {
@@ -142,7 +142,7 @@ PartPlanes planes_of(std::size_t part, const Cells& cells, const GroundWarmth& h
   planes.variation_k = static_cast<float>(heat.first.parts[part].variation_k);
   planes.temperature_k.resize(cells.count());
   planes.per_h_k.resize(cells.count());
-  parallel_for(cells.count(), kGroundCellsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(cells.count(), kGroundCellsPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const SurfaceExposure exposure = cells.exposure(i);
       const double first_k = temperature_k(heat.first.parts[part], heat.first, cells, exposure, i);
@@ -239,7 +239,7 @@ class Mixing {
 std::vector<float> smoothed_along(const std::vector<float>& plane, std::size_t width, std::size_t step,
                                   std::size_t count) {
   std::vector<float> smooth(plane.size());
-  parallel_for(plane.size(), kGroundCellsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(plane.size(), kGroundCellsPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t at = step == 1 ? i % width : i / width;
       const float before = plane[at > 0 ? i - step : i];
@@ -313,7 +313,7 @@ GroundTexture ground_temperatures(const GroundMaps& maps, const GroundOfWindow& 
     plane->resize(fine.width * fine.height);
   std::vector<float> variation_k(fine.width * fine.height);
   const Mixing mixing(parts, sky_view, kinds);
-  parallel_for(fine.height, kGroundRowsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(fine.height, kGroundRowsPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin * fine.width; i < end * fine.width; ++i) {
       const NearCells near(rows[i / fine.width], columns[i % fine.width], ground.maps.width);
       variation_k[i] = mixing.mix(ground.mixes[i], near, i, values);

@@ -32,7 +32,7 @@ void GroundWarp::move(std::span<const float> x_m, std::span<const float> y_m,
 
 namespace {
 
-constexpr std::size_t kTexelCellsAChunk = 4096;
+constexpr std::size_t kTexelCellsPerChunk = 4096;
 constexpr float kStepK = 1.0F / 512;
 constexpr float kSkyViewSteps = 255;
 constexpr float kWarmingSteps = 127;
@@ -218,7 +218,7 @@ void GroundTexture::add_level(const GroundValues& values, std::size_t width, std
   const float per_step = warming_step_k_h_ > 0 ? 1 / warming_step_k_h_ : 0.0F;
   const std::size_t first = texels_.size();
   texels_.resize(first + values.sky_view.size());
-  parallel_for(values.sky_view.size(), kTexelCellsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(values.sky_view.size(), kTexelCellsPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       texels_[first + i] = texel_of((values.temperature_k[i] - base_k_) / kStepK,
                                     values.per_h_k[i] * per_step, values.sky_view[i]);

@@ -167,7 +167,7 @@ constexpr std::int32_t kTiledFlag = 0x200;
 constexpr std::int32_t kLongNamesFlag = 0x400;
 constexpr std::int32_t kDeepFlag = 0x800;
 constexpr std::int32_t kMultiPartFlag = 0x1000;
-constexpr std::int64_t kBytesAChunk = 8;  // of the table of chunk offsets
+constexpr std::int64_t kBytesPerChunk = 8;  // of the table of chunk offsets
 
 struct Window {
   std::int32_t left = 0;
@@ -277,8 +277,8 @@ class HeaderScan {
     read_headers((version & kMultiPartFlag) != 0);
     std::int64_t chunks = 0;
     for (std::size_t part = 0; part < parts_.size(); ++part) chunks += chunks_of(parts_[part], part);
-    if (chunks * kBytesAChunk > in_.left())
-      throw DataError(fault("table of chunks", std::to_string(chunks * kBytesAChunk), "bytes",
+    if (chunks * kBytesPerChunk > in_.left())
+      throw DataError(fault("table of chunks", std::to_string(chunks * kBytesPerChunk), "bytes",
                             fmt::format("at most the {} left in the file", in_.left())));
   }
 

@@ -56,8 +56,8 @@ std::size_t PngHeader::channels() const noexcept {
 
 std::int64_t PngHeader::raw_bytes() const noexcept {
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-  const std::int64_t bits_a_pixel = static_cast<std::int64_t>(channels()) * bit_depth;
-  const std::int64_t row_bytes = (std::int64_t{width_px} * bits_a_pixel + 7) / 8;
+  const std::int64_t bits_per_pixel = static_cast<std::int64_t>(channels()) * bit_depth;
+  const std::int64_t row_bytes = (std::int64_t{width_px} * bits_per_pixel + 7) / 8;
   return row_bytes <= kMost / height_px ? row_bytes * height_px : kMost;
 }
 

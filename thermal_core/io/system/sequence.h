@@ -19,13 +19,13 @@ struct NumberPosition {
   [[nodiscard]] bool operator==(const NumberPosition&) const = default;
 };
 
-/// A pattern for names of files in one folder: * matches any letters, ? one, and one run of #, or one %d or %06d, the
+/// A pattern for names of files in one folder: * matches any characters, ? one, and one run of #, or one %d or %06d, the
 /// frame's number. A number has as many digits as the pattern, padded with zeros, or more without leading zeros.
-/// Every other letter matches itself, case-sensitively.
+/// Every other character matches itself, case-sensitively.
 class NamePattern {
  public:
   /// ConfigError, starting with `where`, for invalid patterns: several numbers, other % sequences, a folder, over 255
-  /// letters.
+  /// characters.
   NamePattern(std::string_view text, std::string_view where);
 
   /// Whether it contains a wildcard or a number.
@@ -44,13 +44,13 @@ class NamePattern {
   };
   struct Reader;
 
-  /// Number of letters that a piece can take: from `least` to `most`.
+  /// Number of characters that a piece can take: from `least` to `most`.
   struct Range {
     std::size_t least = 0;
     std::size_t most = 0;
     bool none = false;
   };
-  /// [k][i]: the pieces from k on match the name from letter i on.
+  /// [k][i]: the pieces from k on match the name from character i on.
   using Fits = std::vector<std::vector<bool>>;
 
   [[nodiscard]] static Range takes(const Piece& piece, std::string_view rest) noexcept;

@@ -10,7 +10,7 @@
 namespace thermal {
 namespace {
 
-constexpr std::size_t kRowsAChunk = 16;
+constexpr std::size_t kRowsPerChunk = 16;
 
 /// The row with `radius` mirrored pixels on either side.
 void pad_row(std::span<const float> row, std::size_t radius, std::vector<float>& padded) {
@@ -81,11 +81,11 @@ void convolve_row(std::span<const float> row, const HalfKernel& kernel, std::vec
 void Convolution::apply(Plane<float>& picture) {
   if (kernel_.size() == 1 || picture.empty()) return;
   across_.resize(picture.width_px(), picture.height_px());
-  parallel_rows(picture.height_px(), kRowsAChunk, [&](int y) {
+  parallel_rows(picture.height_px(), kRowsPerChunk, [&](int y) {
     std::vector<float> padded;
     convolve_row(picture.row(y), kernel_, padded, across_.row(y));
   });
-  parallel_rows(picture.height_px(), kRowsAChunk,
+  parallel_rows(picture.height_px(), kRowsPerChunk,
                 [&](int y) { convolve_column(across_, y, kernel_, picture.row(y)); });
 }
 

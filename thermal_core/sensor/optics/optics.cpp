@@ -10,7 +10,7 @@
 namespace thermal {
 namespace {
 
-constexpr std::size_t kRoundRowsAChunk = 16;
+constexpr std::size_t kRoundRowsPerChunk = 16;
 
 /// Parity of a pattern under mirroring.
 enum class Parity { even, odd };
@@ -88,7 +88,7 @@ void RoundConvolution::find_extents(const SubpixelDetail& detail) {
   const auto is_set = [&detail](int x, int y) {
     return detail.across.at(x, y) != 0 || detail.down.at(x, y) != 0 || detail.crossed.at(x, y) != 0;
   };
-  parallel_for(extents_.size(), kRoundRowsAChunk, [&](std::size_t first, std::size_t last) {
+  parallel_for(extents_.size(), kRoundRowsPerChunk, [&](std::size_t first, std::size_t last) {
     for (std::size_t row = first; row < last; ++row) {
       const auto y = static_cast<int>(row);
       Extent extent = {.begin = 0, .end = detail.across.width_px()};
@@ -120,7 +120,7 @@ void RoundConvolution::make_halo(const Plane<float>& picture) {
   const int rows = blocks_in(picture.height_px());
   blocks_.resize(columns, rows);
   halo_.resize(columns, rows);
-  parallel_for(static_cast<std::size_t>(rows), kRoundRowsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(static_cast<std::size_t>(rows), kRoundRowsPerChunk, [&](std::size_t begin, std::size_t end) {
     std::vector<float> sums(static_cast<std::size_t>(columns * kHaloBlockPx));
     for (auto row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
       std::ranges::fill(sums, 0.0F);
@@ -137,7 +137,7 @@ void RoundConvolution::make_halo(const Plane<float>& picture) {
       }
     }
   });
-  parallel_for(static_cast<std::size_t>(rows), kRoundRowsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(static_cast<std::size_t>(rows), kRoundRowsPerChunk, [&](std::size_t begin, std::size_t end) {
     RowSums sums(columns, kernel_.halo.radius);
     for (auto row = static_cast<int>(begin); row < static_cast<int>(end); ++row)
       convolve_row(blocks_, row, kernel_.halo, sums, halo_.row(row));
@@ -200,7 +200,7 @@ void RoundConvolution::apply(const SubpixelDetail& detail, Plane<float>& picture
   if (!detail.empty() && kernel_.across.radius > 0) find_extents(detail);
   make_halo(picture);
   const auto rows = static_cast<std::size_t>(picture.height_px());
-  parallel_for(rows, kRoundRowsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(rows, kRoundRowsPerChunk, [&](std::size_t begin, std::size_t end) {
     RowSums sums(picture.width_px(), kernel_.pixel.radius);
     std::vector<float> blocks;
     for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
