@@ -61,7 +61,7 @@ def edge_tangents(intrinsics: Intrinsics) -> tuple[tuple[float, float], tuple[fl
 
 
 def lens_shift(intrinsics: Intrinsics) -> tuple[float, float]:
-    """Blender's shift_x and shift_y: offset of the picture's centre to the right of and above the axis, over its width."""
+    """Blender's shift_x and shift_y: offset of the picture's centre right of and above the axis, over its width."""
     (fx_px, fy_px), (cx_px, cy_px) = intrinsics.focal_px, intrinsics.centre_px
     width_px, height_px = intrinsics.width_px, intrinsics.height_px
     # Blender expresses both shifts in widths; pixels are fx / fy as high as they are wide.

@@ -9,7 +9,7 @@
 namespace thermal {
 namespace {
 
-constexpr std::size_t kPixels = 640 * 512;
+constexpr std::size_t kFramePixels = 640 * 512;
 /// Temperatures a row is measured over [K].
 struct Range {
   double coldest_k;
@@ -24,7 +24,7 @@ using PlaneFunction = std::function<void(std::span<const float>, std::span<float
 std::vector<float> spread_temperatures(const Range& range) {
   constexpr double kGolden = 0.6180339887498949;
   std::vector<float> values;
-  for (std::size_t i = 0; i < kPixels; ++i) {
+  for (std::size_t i = 0; i < kFramePixels; ++i) {
     const double turn = kGolden * static_cast<double>(i);
     values.push_back(static_cast<float>(range.coldest_k +
                                         (range.hottest_k - range.coldest_k) * (turn - std::floor(turn))));
@@ -111,11 +111,11 @@ std::vector<BenchRow> evaluator_rows() {
           forward_row(
               "table, lines of 1/16 K", [&table](float t) { return static_cast<double>(table.radiance(t)); },
               [&table](std::span<const float> in, std::span<float> out) { table.radiances(in, out); },
-              reference, kPixels),
+              reference, kFramePixels),
           inverse_row("reference, Newton", exact, reference, kSlow),
-          inverse_row("table, 8192 lines", tables, reference, kPixels),
+          inverse_row("table, 8192 lines", tables, reference, kFramePixels),
           inverse_row("reference, Newton", exact, reference, kSlow, true),
-          inverse_row("table, 1024 lines an octave", tables, reference, kPixels, true)};
+          inverse_row("table, 1024 lines an octave", tables, reference, kFramePixels, true)};
 }
 
 }  // namespace thermal

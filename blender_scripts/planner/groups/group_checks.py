@@ -14,7 +14,7 @@ from .formations import LEAST_M, ON_PATHS
 
 
 def check_groups(groups: list[dict], paths: Collection[str]) -> None:
-    """Check that every group has a species, a path or a `place`, and a behaviour of its species; `paths`: known names."""
+    """Check that every group has a species, a path or a `place`, and a behaviour of its species; `paths`: known."""
     names = [group["name"] for group in groups]
     for k, group in enumerate(groups):
         where = f"scene.groups[{k}]"

@@ -18,7 +18,7 @@ BORDER_CELLS = 1.5  # largest known distance to a border
 
 _SPARSE, _DENSE = 0.08, 0.92  # shares of grass deep in bare soil, and deep in grass; estimates
 _RAMP = 0.15  # of the layer's value, to each side of the border: about as much of a patch's size
-_STEEP = 0.75  # a layer's border is searched where its value is less than this share of the difference to its neighbours
+_STEEP = 0.75  # a layer's border is searched where its value is below this share of the difference to its neighbours
 
 _BURNT_M = 15.0  # size of burnt patches; estimate
 _BURNT_GAIN = 0.6

@@ -38,7 +38,7 @@ class _Ways:
 
 
 def plan_trails(terrain: Terrain, sources_m: Sequence[np.ndarray], seed: int) -> list[Strand]:
-    """Trails from points (n, 2), and from random ones, to the water that is nearest by easy ways; none without water."""
+    """Trails from points (n, 2), and from random ones, to the nearest water by easy ways; none without water."""
     if not terrain.waters:
         return []
     ways = _plan_ways(terrain, seed)

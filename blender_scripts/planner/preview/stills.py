@@ -97,7 +97,7 @@ def _eye(
 
 
 def _hindrances(world: World, eye_m: np.ndarray, target_m: np.ndarray, others_m: np.ndarray) -> float:
-    """Number of obstacles between eye and target: plants, other actors, ground; a position outside the scene is worst."""
+    """Number of obstacles between eye and target: plants, other actors, ground; positions outside are worst."""
     half_m = 0.5 * world.terrain.size_m
     line = eye_m + np.linspace(0.0, 0.9, _SIGHT_STEPS)[:, None] * (target_m - eye_m)
     under_m = world.terrain.surface_m(line[:, 0], line[:, 1])

@@ -22,7 +22,7 @@ class Rejections:
     """Counts by reason. Reasons are few and fixed, so that a flood of faults takes no more memory."""
 
     def __init__(self, report: Callable[[str], None] = lambda _: None) -> None:
-        """report: receives a line of text for the first fault of a reason, and for the next one after a minute or more."""
+        """report: receives a line of text for the first fault of a reason, and for the next after a minute or more."""
         self.counts: dict[str, int] = {}
         self._report = report
         self._reported_s: dict[str, float] = {}
