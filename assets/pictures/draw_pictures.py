@@ -67,7 +67,7 @@ DAY = Day(
     "configs/demo.json",
     ("soil", "wet_soil", "grass", "litter", "rock", "road", "water", "acacia", "acacia wood", "shrub"),
 )
-FOLLOWED = Frames("configs/follow.json", ("scene.terrain.size_m=760",))
+FOLLOWED = Frames("configs/follow.json", ("scene.terrain.size_m=760", "render.posed_actors=seen"))
 
 
 class Workshop:
