@@ -209,10 +209,10 @@ def _config() -> dict:
     return tiny(_with_models)
 
 
-def _check_models_are_seen(passes: Path) -> None:
-    manifest = json.loads((passes / "side" / "manifest.json").read_text())
-    actors = {entry["index"]: entry for entry in manifest["objects"] if entry.get("species") == "okapi"}
-    plant = next(entry["index"] for entry in manifest["objects"] if entry["name"] == "okapi")
+def _check_models_are_seen(plan: Path, passes: Path) -> None:
+    scene = json.loads((plan / "scene.json").read_text())
+    actors = {entry["index"]: entry for entry in scene["objects"] if entry.get("species") == "okapi"}
+    plant = next(entry["index"] for entry in scene["objects"] if entry["name"] == "okapi")
     seen = {
         int(index)
         for frame in range(3)
@@ -222,7 +222,7 @@ def _check_models_are_seen(passes: Path) -> None:
     assert actors.keys() & seen and plant in seen
     box = np.array(next(iter(actors.values()))["bounds_m"])
     assert (np.ptp(box, axis=0) >= SIZE_M).all()
-    assert {"index", "material", "part"} in [set(entry) for entry in manifest["materials"]]
+    assert {"index", "material", "part"} in [set(entry) for entry in scene["materials"]]
 
 
 def test_a_model_is_rendered(made, tmp_path, monkeypatch):
@@ -230,7 +230,7 @@ def test_a_model_is_rendered(made, tmp_path, monkeypatch):
     monkeypatch.setattr(rendering, "ROOT", home)
     run = rendering.render(tmp_path, _config())
     assert run.code == 0, run.log
-    _check_models_are_seen(run.out)
+    _check_models_are_seen(run.plan, run.out)
 
 
 def test_the_ray_caster_draws_the_models_that_blender_reads(made, tmp_path):
@@ -242,7 +242,7 @@ def test_the_ray_caster_draws_the_models_that_blender_reads(made, tmp_path):
     assert done.code == 1 and "only Blender can read it, and it is missing" in done.err
     done = veldt(*arguments, "--blender", BLENDER, env=home)
     assert (done.code, done.err) == (0, "") and done.out.startswith("engine: embree ")
-    _check_models_are_seen(veldt.folder / "out" / "passes")
+    _check_models_are_seen(veldt.folder / "out" / "plan", veldt.folder / "out" / "passes")
 
 
 def test_a_broken_file_stops_everything_before_it_is_rendered(made, tmp_path):
