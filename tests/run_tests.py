@@ -77,10 +77,12 @@ def wheel() -> bool:
 def package_memory() -> bool:
     """The same tests with AddressSanitizer in the package's module. Its runtime must be loaded before Python."""
     shutil.copytree("thermal_core/python/veldt", "build/asan/python/veldt", dirs_exist_ok=True)
-    find = ["c++", "-print-file-name=libasan.so", "-print-file-name=libstdc++.so"]
-    libraries = subprocess.run(find, stdout=subprocess.PIPE, text=True, check=True).stdout.split()
+    names = ("libasan.so", "libstdc++.so")  # the compiler prints one at a time
+    found = [
+        subprocess.check_output(["c++", f"-print-file-name={name}"], text=True).strip() for name in names
+    ]
     return package_tests(
-        LD_PRELOAD=" ".join(libraries),
+        LD_PRELOAD=" ".join(found),
         ASAN_OPTIONS="detect_leaks=0:intercept_tls_get_addr=0",
         PYTHONPATH=str(ROOT / "build/asan/python"),
         VELDT_HOME=str(ROOT),
