@@ -12,7 +12,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-import OpenImageIO as oiio
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "support"))
+
+from pictures import read_planes  # pylint: disable=wrong-import-position
 
 CONFIG = "configs/demo.json"
 DEMO = Path("build/demo")
@@ -52,11 +57,10 @@ def compare_models(arguments: list[str]) -> None:
     say(video, "the physical and the published model, side by side")
 
 
-def indices(file: Path):
-    """Objects and materials of a frame's passes."""
-    picture = oiio.ImageInput.open(str(file))
-    channels = [picture.spec().channelnames.index(f"Scene.Index{of}.X") for of in ("OB", "MA")]
-    return picture.read_image(oiio.FLOAT)[..., channels]
+def indices(file: Path) -> np.ndarray:
+    """Objects and materials (2, height, width) of a frame's passes."""
+    planes = read_planes(file)
+    return np.array([planes[f"Scene.Index{of}.X"] for of in ("OB", "MA")])
 
 
 def compare_engines() -> None:
@@ -74,7 +78,7 @@ def compare_engines() -> None:
         veldt("render", CONFIG, "--out", passes / engine, "--clips", clip, "--engine", engine, *less)
     blender, embree = (passes / engine / "passes" / clip for engine in ENGINES)
     pairs = [(indices(file), indices(embree / file.name)) for file in sorted(blender.glob("*.exr"))]
-    frames = [(one != other).any(axis=-1) for one, other in pairs]
+    frames = [(one != other).any(axis=0) for one, other in pairs]
     differing = [int(frame.sum()) for frame in frames]
     shutil.rmtree(shown.parent, ignore_errors=True)
     shutil.move(blender.parent, shown.parent)

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 import tempfile
@@ -49,7 +50,7 @@ class Fuzzing(Checks):
         files = (f"-dict={BUILD}/seeds/{target}.dict", f"-artifact_prefix={found}/")
         command = (*self.program(target), f"-max_total_time={seconds}", *LIMITS, *files, *inputs)
         with (BUILD / f"{target}.log").open("wb") as log:
-            ran("env", f"TMPDIR={scratch}", *command, stdout=log, stderr=log)
+            ran(*command, stdout=log, stderr=log, env=os.environ | {"TMPDIR": scratch})
 
     def runs(self, target: str) -> int | None:
         """Print how a target went, after a fault with the command that reproduces it; how often it ran without one."""
