@@ -12,9 +12,8 @@ std::string fault(std::string_view where, std::string_view value, std::string_vi
   return fmt::format("{} = {}{}{}; expected {}", where, value, unit.empty() ? "" : " ", unit, rule);
 }
 
-void throw_faults(const std::vector<std::string>& faults, const std::string& name) {
-  if (faults.empty()) return;
-  throw ConfigError(fmt::format("{}: {}", name, fmt::join(faults, "\n" + name + ": ")));
+std::string fault_lines(const std::vector<std::string>& faults, const std::string& name) {
+  return fmt::format("{}: {}", name, fmt::join(faults, "\n" + name + ": "));
 }
 
 void require_range(std::string_view where, double value, std::string_view unit, double low, double high) {

@@ -48,8 +48,14 @@ class Cancelled : public Error {
 [[nodiscard]] std::string fault(std::string_view where, std::string_view value, std::string_view unit,
                                 std::string_view rule);
 
-/// ConfigError with a line "<name>: <fault>" for each fault; does nothing if there are none.
-void throw_faults(const std::vector<std::string>& faults, const std::string& name);
+/// A line "<name>: <fault>" for each fault.
+[[nodiscard]] std::string fault_lines(const std::vector<std::string>& faults, const std::string& name);
+
+/// An error with these lines; does nothing if there are no faults.
+template <typename Fault = ConfigError>
+void throw_faults(const std::vector<std::string>& faults, const std::string& name) {
+  if (!faults.empty()) throw Fault(fault_lines(faults, name));
+}
 
 /// ConfigError with `where` unless `low` <= value <= `high`; NaN is outside.
 void require_range(std::string_view where, double value, std::string_view unit, double low, double high);

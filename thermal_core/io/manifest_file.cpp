@@ -209,8 +209,7 @@ WarmBed warm_bed_of(const Json& json) {
 
 Manifest parse_manifest(Json document, const std::string& name, const Assets& assets) {
   const std::string sum = sha256_of(document.dump());
-  const std::vector<std::string> faults = check_and_fill(document, assets.schema("manifest"));
-  if (!faults.empty()) throw DataError(fmt::format("{}: {}", name, fmt::join(faults, "\n" + name + ": ")));
+  throw_faults<DataError>(check_and_fill(document, assets.schema("manifest")), name);
   Manifest manifest = read_document(document);
   manifest.document_sha256 = sum;
   try {

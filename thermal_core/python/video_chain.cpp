@@ -4,8 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "base/error.h"
 #include "base/rng.h"
 #include "io/assets.h"
@@ -97,7 +95,7 @@ class VideoChain {
     if (settings.is_object() && settings.contains("link") && settings["link"].is_null())
       settings.erase("link");
     if (faults.empty()) faults = check_and_fill(settings, rules_);
-    if (!faults.empty()) throw ConfigError(fmt::format("settings: {}", fmt::join(faults, "\nsettings: ")));
+    throw_faults(faults, "settings");
     return settings;
   }
 

@@ -59,9 +59,7 @@ std::vector<std::string> categories_to_fill_in(const Manifest& manifest) {
 void check_filled_in(const Manifest& manifest, const Path& file, const MaterialLibrary& materials) {
   std::vector<std::string> faults = unknown_materials(manifest, materials);
   for (std::string& more : categories_to_fill_in(manifest)) faults.push_back(std::move(more));
-  if (faults.empty()) return;
-  throw DataError(
-      fmt::format("{}: {}", file.string(), fmt::join(faults, fmt::format("\n{}: ", file.string()))));
+  throw_faults<DataError>(faults, file.string());
 }
 
 }  // namespace thermal

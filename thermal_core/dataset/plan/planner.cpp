@@ -4,7 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <optional>
-#include <sstream>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -27,14 +27,12 @@
 namespace thermal {
 namespace {
 
-[[noreturn]] void throw_faults(const std::string& text, const std::string& name) {
-  std::string message;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.empty()) continue;
-    message += (message.empty() ? "" : "\n") + name + ": " + line;
-  }
-  throw ConfigError(message);
+/// Of each line that the planner printed.
+std::vector<std::string> faults_in(const std::string& text) {
+  std::vector<std::string> faults;
+  for (const std::string_view line : split(text, '\n'))
+    if (!line.empty()) faults.emplace_back(line);
+  return faults;
 }
 
 /// Passes on an event of the script; a line that is none would be its fault, not the user's.
@@ -66,7 +64,7 @@ std::string run_planning(const Config& config, const std::string& name, const Pl
   try {
     check_asset_files(planned_part(config).at("scene"), options.assets);
   } catch (const ConfigError& fault) {
-    throw_faults(fault.what(), name);
+    throw_faults({fault.what()}, name);
   }
   const Path script = options.assets.script("plan_scene.py");
   std::vector<std::string> command = {python.string(),
@@ -82,7 +80,8 @@ std::string run_planning(const Config& config, const std::string& name, const Pl
   const Output output = run_program(command, to_text(planned_part(config)),
                                     [&options](const std::string& line) { show_event(line, options); });
   constexpr int kConfigFault = 2;
-  if (output.status.signal == 0 && output.status.code == kConfigFault) throw_faults(output.error, name);
+  if (output.status.signal == 0 && output.status.code == kConfigFault)
+    throw_faults(faults_in(output.error), name);
   if (output.status.signal != 0 || output.status.code != 0)
     throw_failure(fmt::format("{} {}", python.string(), script.filename().string()), output);
   return output.out;

@@ -130,7 +130,8 @@ SectionResolver::Own SectionResolver::resolve(const Json& sections, Season seaso
   const std::string where = fmt::format("{}: {}.", name_, place);
   std::vector<std::string> faults;
   const auto throw_if_any = [&] {
-    if (!faults.empty()) throw ConfigError(where + fmt::format("{}", fmt::join(faults, "\n" + where)));
+    for (std::string& one : faults) one.insert(0, place + ".");
+    throw_faults(faults, name_);
   };
   Json own = Json::object();
   Json dataset = Json::object();

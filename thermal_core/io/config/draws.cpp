@@ -142,11 +142,6 @@ class Draws {
     return schema_["properties"][section];
   }
 
-  void throw_faults(const std::vector<std::string>& faults) const {
-    if (!faults.empty())
-      throw ConfigError(fmt::format("{}: {}", name_, fmt::join(faults, "\n" + name_ + ": ")));
-  }
-
   /// The scene and what all clips share keep one draw. For the rest of the sections, the dataset has a draw too, which
   /// stands for clips that are not in the config.
   void draw_dataset() {
@@ -155,7 +150,7 @@ class Draws {
     if (document.contains("scene")) drawer.draw(document["scene"], rules_of("scene"), "scene");
     drawer.remove_nothing(document);
     draw_shared(drawer);
-    throw_faults(drawer.faults());
+    throw_faults(drawer.faults(), name_);
     random_ = Json::object();
     for (const char* section : kClipSections) {
       if (!document.contains(section)) continue;
@@ -171,7 +166,7 @@ class Draws {
       if (document.contains(section)) found_.given[section] = document[section];
     Json own = random_;
     drawer.draw(own, schema_, "");
-    throw_faults(drawer.faults());
+    throw_faults(drawer.faults(), name_);
     document.merge_patch(own);
     drawer.record(document);
   }
@@ -209,7 +204,8 @@ class Draws {
       const std::size_t count = take_count(entry, place);
       if (all.size() + count > kMostEntries)
         throw_faults({fault(place + ".count", std::to_string(count), "",
-                            fmt::format("at most {} clips in all", kMostEntries))});
+                            fmt::format("at most {} clips in all", kMostEntries))},
+                     name_);
       if (is_counted_) place += fmt::format(" ({}, {})", entry["id"].dump(), in_words(count, list));
       for (std::size_t n = 0; n < count; ++n) {
         Json one = entry;
@@ -236,7 +232,7 @@ class Draws {
     std::vector<std::string> faults = check_and_fill(entry["id"], rules["id"], place + ".id");
     for (std::string& one : check_and_fill(count, rules["count"], place + ".count"))
       faults.push_back(std::move(one));
-    throw_faults(faults);
+    throw_faults(faults, name_);
     entry.erase("count");
     return count.get<std::size_t>();
   }
@@ -249,7 +245,7 @@ class Draws {
     drawer.draw(entry, rules, "");
     drawer.remove_nothing(entry);
     draw_view(entry, rules, drawer);
-    throw_faults(drawer.faults());
+    throw_faults(drawer.faults(), name_);
     drawer.record(entry);
     return own;
   }

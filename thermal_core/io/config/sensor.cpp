@@ -84,9 +84,8 @@ Json read_preset(const Path& file, const Json& schema, const std::vector<std::st
   const Json rules = {{"type", "object"}, {"additionalProperties", false}, {"properties", std::move(keys)}};
   Json preset = read_json(file);
   Json filled = preset;
-  const std::vector<std::string> faults = check_and_fill(filled, rules);
-  if (faults.empty()) return preset;
-  throw ConfigError(fmt::format("{}: {}", file.string(), fmt::join(faults, "\n" + file.string() + ": ")));
+  throw_faults(check_and_fill(filled, rules), file.string());
+  return preset;
 }
 
 /// A preset, with the values of those that it builds on wherever it gives none. `where` is the key that names it.
