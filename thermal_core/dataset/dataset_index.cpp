@@ -156,14 +156,14 @@ std::string write_joined_annotations(const Layout& layout, const std::string& da
 
 namespace {
 
-void check_same_config(const Layout& layout, const Json& config, const Json& there) {
+void check_same_config(const Layout& layout, const Json& document, const Json& there) {
   const Json recorded = there.value("config", Json::object());
-  const std::vector<std::string> found = differences(config, recorded);
+  const std::vector<std::string> found = differences(document, recorded);
   if (found.empty()) return;
   constexpr std::size_t kMost = 8;
   throw ConfigError(
       fmt::format("{} holds a dataset made from another config: {}; expected {}, or another folder",
-                  layout.root.string(), list_names(found, kMost), expected_config(config, recorded)));
+                  layout.root.string(), list_names(found, kMost), expected_config(document, recorded)));
 }
 
 /// The dataset that a run continues. ConfigError if the folder holds anything else.

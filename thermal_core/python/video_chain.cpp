@@ -26,13 +26,13 @@ constexpr const char* kFieldMotion = "field_motion_px";
 constexpr const char* kNoise = "noise_levels";
 
 /// The schema of a chain's settings, from that of configs.
-Json rules_of_chain(const Json& config) {
+Json rules_of_chain(const Json& schema) {
   return {{"type", "object"},
           {"additionalProperties", false},
           {"properties",
            {{kNoise, {{"type", "number"}, {"minimum", 0}, {"maximum", 100}, {"default", 0}}},
-            {"processing", config["properties"]["sensor"]["properties"]["processing"]},
-            {"link", config["properties"]["output"]["properties"]["link"]},
+            {"processing", schema["properties"]["sensor"]["properties"]["processing"]},
+            {"link", schema["properties"]["output"]["properties"]["link"]},
             {kFieldMotion, {{"type", "number"}, {"minimum", -100}, {"maximum", 100}, {"default", 0}}}}}};
 }
 

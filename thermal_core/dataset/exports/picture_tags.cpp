@@ -17,9 +17,9 @@ namespace {
 constexpr double kMostAwayM = 100'000;
 
 /// A section of a config with a clip's changes.
-Json section_of(const Json& config, const std::string& clip, const char* name) {
-  Json section = config.value(name, Json::object());
-  for (const Json& entry : config.value("clips", Json::array()))
+Json section_of(const Json& document, const std::string& clip, const char* name) {
+  Json section = document.value(name, Json::object());
+  for (const Json& entry : document.value("clips", Json::array()))
     if (entry.value("id", "") == clip && entry.contains(name)) section.merge_patch(entry[name]);
   return section;
 }
@@ -140,12 +140,12 @@ CameraAttitude attitude_at(const std::array<double, 16>& pose, const Georeferenc
 
 }  // namespace
 
-TaggedCamera tagged_camera(const Json& config, const std::string& clip, const Json& intrinsics) {
-  const Json sensor = section_of(config, clip, "sensor");
-  const Json weather = section_of(config, clip, "weather");
+TaggedCamera tagged_camera(const Json& document, const std::string& clip, const Json& intrinsics) {
+  const Json sensor = section_of(document, clip, "sensor");
+  const Json weather = section_of(document, clip, "weather");
   return {.model = sensor.value("preset", sensor.value("model", std::string())),
           .fx_px = number_of(intrinsics, "fx_px"),
-          .pixel_pitch_um = number_of(section_of(config, clip, "camera"), "pixel_pitch_um"),
+          .pixel_pitch_um = number_of(section_of(document, clip, "camera"), "pixel_pitch_um"),
           .f_number = number_of(sensor.value("optics", Json::object()), "f_number"),
           .response = response_of(sensor),
           .date = weather.value("date", std::string()),

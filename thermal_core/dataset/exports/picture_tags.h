@@ -28,9 +28,10 @@ struct TaggedCamera {
 };
 
 /// The camera of a clip of a dataset.
-/// @param config  of dataset.json
+/// @param document  the config of dataset.json
 /// @param intrinsics  of the clip's video in annotations.json; null if it has none
-[[nodiscard]] TaggedCamera tagged_camera(const Json& config, const std::string& clip, const Json& intrinsics);
+[[nodiscard]] TaggedCamera tagged_camera(const Json& document, const std::string& clip,
+                                         const Json& intrinsics);
 
 /// Tags of a frame. Position and attitude as OpenDroneMap (opendm/photo.py) and Pix4D ("Specifications of XMP camera
 /// tags") read them: EXIF's GPS tags, and XMP's Camera:Yaw, Camera:Pitch and Camera:Roll of attitude_of(), relative to

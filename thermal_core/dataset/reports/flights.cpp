@@ -62,17 +62,18 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t most) {
 }
 
 /// The `camera` of a config, with a clip's changes.
-Json camera_of_clip(const Json& config, const std::string& id) {
-  Json camera = config.at("camera");
-  for (const Json& clip : config.value("clips", Json::array()))
+Json camera_of_clip(const Json& document, const std::string& id) {
+  Json camera = document.at("camera");
+  for (const Json& clip : document.value("clips", Json::array()))
     if (clip.value("id", "") == id && clip.contains("camera")) camera.merge_patch(clip["camera"]);
   return camera;
 }
 
-std::vector<std::array<double, 2>> seen_halfway(const FlightTrack& track, const Json& config) {
+std::vector<std::array<double, 2>> seen_halfway(const FlightTrack& track, const Json& document) {
   if (track.agl_m.empty()) return {};
   const std::size_t middle = track.agl_m.size() / 2;
-  return seen_ground(track.camera_to_world[middle], track.agl_m[middle], camera_of_clip(config, track.clip));
+  return seen_ground(track.camera_to_world[middle], track.agl_m[middle],
+                     camera_of_clip(document, track.clip));
 }
 
 namespace {
@@ -80,7 +81,7 @@ namespace {
 /// A centimetre is finer than a pixel of any map.
 double rounded_m(double value_m) { return std::round(100 * value_m) / 100; }
 
-Json track_json(const FlightTrack& track, const Json& config) {
+Json track_json(const FlightTrack& track, const Json& document) {
   constexpr std::size_t kMostPoints = 300;
   Json points = Json::array();
   for (const std::size_t k : spread(track.camera_to_world.size(), kMostPoints)) {
@@ -91,13 +92,13 @@ Json track_json(const FlightTrack& track, const Json& config) {
   if (track.agl_m.empty()) return json;
   const auto [least, most] = std::minmax_element(track.agl_m.begin(), track.agl_m.end());
   json["agl_m"] = {rounded_m(*least), rounded_m(*most)};
-  for (const auto& [x_m, y_m] : seen_halfway(track, config))
+  for (const auto& [x_m, y_m] : seen_halfway(track, document))
     json["seen_m"].push_back({rounded_m(x_m), rounded_m(y_m)});
   return json;
 }
 
 /// Input of draw_map.py: positions below the camera with the height of ground or water, then the corners of its view.
-Json ground_points(const std::vector<FlightTrack>& tracks, const Json& config) {
+Json ground_points(const std::vector<FlightTrack>& tracks, const Json& document) {
   constexpr std::size_t kMostPoints = 400;
   Json points = Json::array();
   for (const FlightTrack& track : tracks) {
@@ -105,7 +106,7 @@ Json ground_points(const std::vector<FlightTrack>& tracks, const Json& config) {
       const auto& pose = track.camera_to_world[k];
       points.push_back({pose[kX], pose[kY], pose[kZ] - track.agl_m[k]});
     }
-    for (const auto& [x_m, y_m] : seen_halfway(track, config)) points.push_back({x_m, y_m, nullptr});
+    for (const auto& [x_m, y_m] : seen_halfway(track, document)) points.push_back({x_m, y_m, nullptr});
   }
   return points;
 }
@@ -132,12 +133,12 @@ Json drawn(const Json& answer, const Path& folder) {
   return {{"place", picture(folder, "place", answer)}, {"window", picture(folder, "window", answer)}};
 }
 
-Json map_of(const std::vector<FlightTrack>& tracks, const Json& config, const Assets& assets) {
+Json map_of(const std::vector<FlightTrack>& tracks, const Json& document, const Assets& assets) {
   const Path python = find_python();
   if (python.empty()) return absent("The place could not be drawn: no python3 on PATH.");
   const TemporaryFolder folder;
-  write_file_atomically(folder.path() / "config.json", to_text(config));
-  write_file_atomically(folder.path() / "points.json", ground_points(tracks, config).dump());
+  write_file_atomically(folder.path() / "config.json", to_text(document));
+  write_file_atomically(folder.path() / "points.json", ground_points(tracks, document).dump());
   const std::string at = folder.path().string();
   const Output output = run_program({python.string(), "-I", assets.script("draw_map.py").string(), "--config",
                                      at + "/config.json", "--points", at + "/points.json", "--out", at});
@@ -154,11 +155,11 @@ bool has_heights(const FlightTrack& track) {
 
 }  // namespace
 
-Json flight_figures(const std::vector<FlightTrack>& tracks, const Json& config, const Assets& assets) {
+Json flight_figures(const std::vector<FlightTrack>& tracks, const Json& document, const Assets& assets) {
   std::vector<FlightTrack> flown;
   Json json = {{"tracks", Json::array()}};
   for (const FlightTrack& track : tracks) {
-    json["tracks"].push_back(track_json(track, config));
+    json["tracks"].push_back(track_json(track, document));
     if (!track.camera_to_world.empty()) flown.push_back(track);
   }
   if (flown.empty()) {
@@ -168,7 +169,7 @@ Json flight_figures(const std::vector<FlightTrack>& tracks, const Json& config, 
         "The passes do not say how high the camera flew above ground, so it is unknown whether they show the "
         "place of the config, and it is not drawn.");
   } else {
-    json["map"] = map_of(flown, config, assets);
+    json["map"] = map_of(flown, document, assets);
   }
   return json;
 }

@@ -34,13 +34,13 @@ inline constexpr std::size_t kZ = 11;  ///< of z
 [[nodiscard]] std::vector<std::size_t> spread(std::size_t count, std::size_t most);
 
 /// The ground seen from the track's middle frame (see seen_ground); empty where unknown.
-[[nodiscard]] std::vector<std::array<double, 2>> seen_halfway(const FlightTrack& track, const Json& config);
+[[nodiscard]] std::vector<std::array<double, 2>> seen_halfway(const FlightTrack& track, const Json& document);
 
 /// Tracks and the map below them, as JSON: `tracks` (clip, points_m, agl_m from and to, seen_m: the ground that the
 /// middle frame shows) and `map`: pictures as data URIs with their positions in metres, or otherwise `absent`, a
 /// sentence with the reason. The map is drawn by blender_scripts/draw_map.py from the config, and shown only if the
 /// camera's heights match its ground.
-[[nodiscard]] Json flight_figures(const std::vector<FlightTrack>& tracks, const Json& config,
+[[nodiscard]] Json flight_figures(const std::vector<FlightTrack>& tracks, const Json& document,
                                   const Assets& assets);
 
 }  // namespace thermal

@@ -17,8 +17,8 @@
 namespace thermal {
 namespace {
 
-std::string camera_name(const Json& config) {
-  const Json& sensor = config.at("sensor");
+std::string camera_name(const Json& document) {
+  const Json& sensor = document.at("sensor");
   return sensor.value("preset", sensor.value("model", ""));
 }
 
