@@ -182,8 +182,8 @@ std::vector<std::string> with_engine(std::vector<std::string> settings, const st
   return settings;
 }
 
-thermal::Config load_config(const thermal::Path& file, const std::vector<std::string>& settings,
-                            const thermal::Assets& assets) {
+thermal::ResolvedConfig load_config(const thermal::Path& file, const std::vector<std::string>& settings,
+                                    const thermal::Assets& assets) {
   thermal::Json document = read_named_document(file);
   try {
     for (const std::string& setting : settings) thermal::apply_setting(document, setting);

@@ -86,8 +86,9 @@ void add_engine(CLI::App* command, std::string& engine);
 
 /// Reads a config, applies `settings` and checks it. Faults of the file are ConfigErrors; IoError for a failure of the
 /// machine.
-[[nodiscard]] thermal::Config load_config(const thermal::Path& file, const std::vector<std::string>& settings,
-                                          const thermal::Assets& assets);
+[[nodiscard]] thermal::ResolvedConfig load_config(const thermal::Path& file,
+                                                  const std::vector<std::string>& settings,
+                                                  const thermal::Assets& assets);
 
 /// thermal::find_blender() for the option --blender.
 [[nodiscard]] thermal::Path find_blender(const std::string& named);

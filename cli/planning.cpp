@@ -53,16 +53,16 @@ std::string bytes_text(double bytes) {
 
 }  // namespace
 
-void print_engine(const thermal::Config& config) {
-  if (config.engine_reason.empty()) return;
-  const char* name = config.engine == thermal::Engine::embree ? "embree" : "blender";
-  print("engine: {} ({})\n", name, config.engine_reason);
+void print_engine(const thermal::DatasetSpec& spec) {
+  if (spec.engine_reason.empty()) return;
+  const char* name = spec.engine == thermal::Engine::embree ? "embree" : "blender";
+  print("engine: {} ({})\n", name, spec.engine_reason);
 }
 
-void print_plan(const thermal::Config& config, const thermal::DatasetPlan& plan,
-                const std::vector<thermal::ClipConfig>& chosen) {
+void print_plan(const thermal::DatasetSpec& spec, const thermal::DatasetPlan& plan,
+                const std::vector<thermal::ClipSpec>& chosen) {
   std::set<std::string> ids;
-  for (const thermal::ClipConfig& clip : chosen) ids.insert(clip.id);
+  for (const thermal::ClipSpec& clip : chosen) ids.insert(clip.id);
   print("{:<32} {:>6} {:>8} {:>12} {:>16}\n", "clip or flight", "clips", "frames", "with actors",
         "height [m AGL]");
   PlanRow all{.name = "all"};
@@ -77,8 +77,8 @@ void print_plan(const thermal::Config& config, const thermal::DatasetPlan& plan,
   }
   if (row.clips > 0) print_row(row);
   if (all.clips > row.clips) print_row(all);
-  print_engine(config);
-  const thermal::Estimate estimate = thermal::estimate_run(config, all.clips, all.frames);
+  print_engine(spec);
+  const thermal::Estimate estimate = thermal::estimate_run(spec, all.clips, all.frames);
   print("about {} on 2 cores, {} of disk space\n", duration_text(estimate.seconds),
         bytes_text(estimate.bytes));
 }
@@ -101,7 +101,7 @@ void plan_with_progress(const CommonOptions& common, const thermal::Assets& asse
 }
 
 thermal::DatasetPlan plan_with_progress(const CommonOptions& common, const thermal::Assets& assets,
-                                        const thermal::Config& config, const std::string& name) {
+                                        const thermal::ResolvedConfig& config, const std::string& name) {
   thermal::DatasetPlan plan;
   plan_with_progress(common, assets, [&](const thermal::PlanOptions& options) {
     plan = thermal::plan_dataset(config, name, options);

@@ -13,12 +13,12 @@
 namespace veldt {
 
 /// Prints which engine was chosen, and why; nothing if the config names one.
-void print_engine(const thermal::Config& config);
+void print_engine(const thermal::DatasetSpec& spec);
 
 /// Prints what a run would make: a line per clip, or per flight that clips are cut from; then totals, and an estimate
 /// of run time and disk space.
-void print_plan(const thermal::Config& config, const thermal::DatasetPlan& plan,
-                const std::vector<thermal::ClipConfig>& chosen);
+void print_plan(const thermal::DatasetSpec& spec, const thermal::DatasetPlan& plan,
+                const std::vector<thermal::ClipSpec>& chosen);
 
 /// Calls `plan` with options for --threads cores. Shows progress after ten seconds.
 void plan_with_progress(const CommonOptions& common, const thermal::Assets& assets,
@@ -27,6 +27,7 @@ void plan_with_progress(const CommonOptions& common, const thermal::Assets& asse
 /// plan_dataset(), which writes nothing.
 [[nodiscard]] thermal::DatasetPlan plan_with_progress(const CommonOptions& common,
                                                       const thermal::Assets& assets,
-                                                      const thermal::Config& config, const std::string& name);
+                                                      const thermal::ResolvedConfig& config,
+                                                      const std::string& name);
 
 }  // namespace veldt

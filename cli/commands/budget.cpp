@@ -59,12 +59,12 @@ struct BudgetArguments {
 
 int run_budget(const BudgetArguments& options, const CommonOptions& common) {
   const thermal::Assets assets = thermal::Assets::find();
-  const thermal::Config given = load_config(options.config, options.settings, assets);
+  const thermal::ResolvedConfig given = load_config(options.config, options.settings, assets);
   const thermal::MaterialLibrary materials = thermal::read_materials(assets);
   const thermal::DatasetPlan plan = plan_with_progress(common, assets, given, options.config);
-  const thermal::Config config = thermal::with_flights_cut(given, plan, options.config);
-  const thermal::SceneOutline outline = thermal::outline_of(config, plan, materials);
-  const thermal::KeptTerms kept(config, outline);
+  const thermal::DatasetSpec spec = thermal::with_flights_cut(given, plan, options.config).spec;
+  const thermal::SceneOutline outline = thermal::outline_of(spec, plan, materials);
+  const thermal::KeptTerms kept(spec, outline);
   const thermal::Budget& budget = kept.budget();
   if (options.json) {
     print_json(thermal::to_json(budget));

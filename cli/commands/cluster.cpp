@@ -82,14 +82,14 @@ int shard_count(const ClusterArguments& options, std::size_t clips) {
 
 /// Time limit of a shard: three times the estimate, which is accurate within a factor of two, with a minimum. A shard
 /// that reaches it continues with the clip after its last complete one.
-int shard_minutes(const thermal::Config& config, int shards, int cores) {
+int shard_minutes(const thermal::DatasetSpec& spec, int shards, int cores) {
   constexpr double kEstimatedCores = 2;
   constexpr double kMargin = 3;
   constexpr int kLeast = 15;
-  const std::vector<int> dealt = thermal::deal_shards(config, shards);
+  const std::vector<int> dealt = thermal::deal_shards(spec, shards);
   std::vector<double> seconds(static_cast<std::size_t>(shards));
   for (std::size_t i = 0; i < dealt.size(); ++i)
-    seconds[static_cast<std::size_t>(dealt[i])] += thermal::clip_seconds(config, config.clips[i].frames);
+    seconds[static_cast<std::size_t>(dealt[i])] += thermal::clip_seconds(spec, spec.clips[i].frames);
   const double longest_min = std::ranges::max(seconds) * kEstimatedCores / cores / 60;
   return kLeast + static_cast<int>(std::ceil(kMargin * longest_min));
 }
@@ -101,26 +101,25 @@ int merge_minutes(const thermal::Estimate& estimate) {
   return kLeast + static_cast<int>(std::ceil(estimate.bytes / kBytesPerMinute));
 }
 
-Values values_of(const ClusterArguments& options, const thermal::Config& config) {
-  const int shards = shard_count(options, config.clips.size());
-  const int clips = static_cast<int>(config.clips.size());
-  int frames = 0;
-  for (const thermal::ClipConfig& clip : config.clips) frames += clip.frames;
+Values values_of(const ClusterArguments& options, const thermal::DatasetSpec& spec) {
+  const int shards = shard_count(options, spec.clips.size());
+  const int clips = static_cast<int>(spec.clips.size());
+  const int frames = thermal::frames_of(spec.clips);
   const thermal::Path data =
       options.data.empty() ? thermal::Path(options.plan) / ".." : thermal::Path(options.data);
   const auto absolute = [](const char* what, const thermal::Path& folder) {
     return shell_quoted(
         checked(what, std::filesystem::weakly_canonical(std::filesystem::absolute(folder)).string()));
   };
-  return {{"name", label_of(config.name)},
-          {"label", label_of(config.name)},
+  return {{"name", label_of(spec.name)},
+          {"label", label_of(spec.name)},
           {"shards", std::to_string(shards)},
           {"last_shard", std::to_string(shards - 1)},
           {"nodes", std::to_string(options.nodes)},
           {"cores", std::to_string(options.cores)},
           {"memory_gb", std::to_string(options.memory_gb)},
-          {"minutes", std::to_string(shard_minutes(config, shards, options.cores))},
-          {"merge_minutes", std::to_string(merge_minutes(thermal::estimate_run(config, clips, frames)))},
+          {"minutes", std::to_string(shard_minutes(spec, shards, options.cores))},
+          {"merge_minutes", std::to_string(merge_minutes(thermal::estimate_run(spec, clips, frames)))},
           {"plan", absolute("plan", options.plan)},
           {"data", absolute("--data", data)},
           {"image", thermal::Json(checked("--image", options.image)).dump()},
@@ -132,7 +131,7 @@ int run_cluster(const ClusterArguments& options) {
   const thermal::PlannedDataset dataset = thermal::open_plan(options.plan, assets);
   const bool is_slurm = options.scheduler == "slurm";
   const thermal::Path file = assets.home() / "configs/cluster" / (is_slurm ? "slurm.sh" : "kubernetes.yaml");
-  const std::string text = filled_in(thermal::read_file(file), values_of(options, dataset.config));
+  const std::string text = filled_in(thermal::read_file(file), values_of(options, dataset.config.spec));
   if (!options.out.empty()) {
     thermal::write_file_atomically(options.out, text);
     return kDone;

@@ -50,7 +50,7 @@ thermal::Fit fitted(const FitArguments& options, const CommonOptions& common) {
   request.config = read_fitted_config(options);
   request.config_name = options.config;
   request.assets = thermal::Assets::find();
-  const auto plan = [&](const thermal::Path& folder, const thermal::Config& config) {
+  const auto plan = [&](const thermal::Path& folder, const thermal::ResolvedConfig& config) {
     thermal::DatasetPlan planned;
     plan_with_progress(common, request.assets, [&](const thermal::PlanOptions& planning) {
       planned = thermal::plan_into(folder, config, options.config, planning);

@@ -113,10 +113,10 @@ thermal::Shard parse_shard(const std::string& text, const Environment& environme
 struct Work {
   std::string command;
   std::string footer;
-  std::function<thermal::DatasetPlan(const thermal::Path& out, const thermal::Config&,
+  std::function<thermal::DatasetPlan(const thermal::Path& out, const thermal::ResolvedConfig&,
                                      const std::string& name, const thermal::PlanOptions&)>
       plan;
-  std::function<thermal::RunOutcome(const thermal::Config&, const thermal::DatasetPlan&,
+  std::function<thermal::RunOutcome(const thermal::ResolvedConfig&, const thermal::DatasetPlan&,
                                     const thermal::GenerateOptions&, const thermal::RunHooks&)>
       run;
 };
@@ -138,7 +138,7 @@ struct GenerateArguments {
   bool dry_run = false;
 };
 
-int make_preview(const thermal::Config& config, const std::string& name,
+int make_preview(const thermal::ResolvedConfig& config, const std::string& name,
                  const thermal::GenerateOptions& request, const CommonOptions& common) {
   plan_with_progress(common, request.assets, [&](thermal::PlanOptions options) {
     options.blender = request.blender;
@@ -157,7 +157,7 @@ int make_preview(const thermal::Config& config, const std::string& name,
 }
 
 /// A given plan, whose config is complete, or a config with a plan made by this run.
-thermal::PlannedDataset plan_of_run(const thermal::Config& config, const GenerateArguments& options,
+thermal::PlannedDataset plan_of_run(const thermal::ResolvedConfig& config, const GenerateArguments& options,
                                     const thermal::GenerateOptions& request, const CommonOptions& common,
                                     const Work& work) {
   thermal::DatasetPlan planned;
@@ -168,13 +168,14 @@ thermal::PlannedDataset plan_of_run(const thermal::Config& config, const Generat
       planning.blender = request.blender;
       planned = work.plan(request.out, config, options.config, planning);
     });
-  thermal::Config cut = thermal::with_flights_cut(config, planned, (request.plan / "plan.json").string());
+  thermal::ResolvedConfig cut =
+      thermal::with_flights_cut(config, planned, (request.plan / "plan.json").string());
   return {.config = std::move(cut), .plan = std::move(planned)};
 }
 
 /// Colour stills need Blender with every engine.
-bool needs_blender(const GenerateArguments& options, const thermal::Config& config) {
-  return !options.dry_run && (options.preview || config.engine == thermal::Engine::blender);
+bool needs_blender(const GenerateArguments& options, const thermal::DatasetSpec& spec) {
+  return !options.dry_run && (options.preview || spec.engine == thermal::Engine::blender);
 }
 
 void check_sources(const GenerateArguments& options, const std::string& command) {
@@ -202,28 +203,29 @@ int run_generate(const GenerateArguments& options, const CommonOptions& common, 
   check_sources(options, work.command);
   const thermal::Assets assets = thermal::Assets::find();
   thermal::PlannedDataset dataset = read_sources(options, assets);
-  if (!common.quiet && !options.dry_run && !options.preview) print_engine(dataset.config);
+  if (!common.quiet && !options.dry_run && !options.preview) print_engine(dataset.config.spec);
   const thermal::GenerateOptions request = {
       .assets = assets,
       .out = options.out,
       .plan = options.plan.empty() ? thermal::Layout{options.out}.plan() : thermal::Path(options.plan),
       .scratch = options.scratch,
-      .blender = needs_blender(options, dataset.config) ? find_blender(options.blender)
-                                                        : thermal::find_program("blender"),
+      .blender = needs_blender(options, dataset.config.spec) ? find_blender(options.blender)
+                                                             : thermal::find_program("blender"),
       .clips = options.clips,
       .shard = parse_shard(options.shard, own_environment),
       .jobs = options.jobs,
       .threads = common.threads,
       .keep_passes = options.keep_passes};
-  if (dataset.config.flights.empty())  // reports a wrong --clips at once
-    (void)thermal::choose_clips(dataset.config, request.clips, request.shard);
+  if (dataset.config.spec.flights.empty())  // reports a wrong --clips at once
+    (void)thermal::choose_clips(dataset.config.spec, request.clips, request.shard);
   if (options.preview && !options.dry_run)
     return make_preview(dataset.config, options.config, request, common);
   if (options.plan.empty()) dataset = plan_of_run(dataset.config, options, request, common, work);
   const auto& [config, plan] = dataset;
-  const std::vector<thermal::ClipConfig> chosen = thermal::choose_clips(config, request.clips, request.shard);
+  const std::vector<thermal::ClipSpec> chosen =
+      thermal::choose_clips(config.spec, request.clips, request.shard);
   if (options.dry_run) {
-    print_plan(config, plan, chosen);
+    print_plan(config.spec, plan, chosen);
     return kDone;
   }
   if (!options.plan.empty()) thermal::check_files_of_clips(options.plan, thermal::ids_of(chosen));
@@ -309,7 +311,9 @@ void add_render(CLI::App& app, Session& session) {
       {.command = "render",
        .footer = "Example: veldt render configs/savanna.json --out look --preview",
        .plan = thermal::plan_to_render,
-       .run = thermal::render});
+       .run = [](const auto& config, const auto& /*plan*/, const auto& request, const auto& hooks) {
+         return thermal::render(config, request, hooks);
+       }});
 }
 
 }  // namespace veldt

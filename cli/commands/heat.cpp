@@ -255,9 +255,9 @@ Surfaces choose(const Surfaces& all, const std::vector<std::string>& names) {
   return chosen;
 }
 
-std::vector<SeasonHeat> heat_of(const thermal::Config& config, const Surfaces& surfaces) {
+std::vector<SeasonHeat> heat_of(const thermal::DatasetSpec& spec, const Surfaces& surfaces) {
   std::vector<SeasonHeat> seasons;
-  std::vector<thermal::FlownWeather> flown = thermal::flown_weather(config);
+  std::vector<thermal::FlownWeather> flown = thermal::flown_weather(spec);
   flown.resize(std::min(flown.size(), kMostDays));
   for (auto& [season, weather, flown_h] : flown) {
     seasons.push_back({.season = season,
@@ -329,11 +329,11 @@ thermal::Json to_json(const SeasonHeat& heat) {
 
 int run_heat(const HeatArguments& options, const CommonOptions& common) {
   const thermal::Assets assets = thermal::Assets::find();
-  const thermal::Config config = load_config(options.config, options.settings, assets);
+  const thermal::DatasetSpec spec = load_config(options.config, options.settings, assets).spec;
   const Surfaces surfaces =
       choose(thermal::heat_of_materials(thermal::read_materials(assets)), options.surfaces);
   const std::vector<SeasonHeat> seasons =
-      thermal::with_threads(common.threads, [&] { return heat_of(config, surfaces); });
+      thermal::with_threads(common.threads, [&] { return heat_of(spec, surfaces); });
   if (!options.plot.empty()) {
     std::vector<PlottedDay> days;
     for (const SeasonHeat& heat : seasons)
@@ -353,7 +353,7 @@ int run_heat(const HeatArguments& options, const CommonOptions& common) {
     print_inputs(heat);
     print_crossovers(heat);
   }
-  const std::size_t days = thermal::flown_weather(config).size();
+  const std::size_t days = thermal::flown_weather(spec).size();
   if (days > seasons.size()) print("\nand {} more days, of other clips\n", days - seasons.size());
   return kDone;
 }

@@ -51,7 +51,7 @@ void check_arguments(const MergeArguments& options) {
     throw thermal::ConfigError("--shards needs --plan, which says what each shard makes");
 }
 
-std::optional<thermal::Config> planned_config(const MergeArguments& options) {
+std::optional<thermal::ResolvedConfig> planned_config(const MergeArguments& options) {
   if (options.plan.empty()) return std::nullopt;
   return thermal::open_plan(options.plan, thermal::Assets::find()).config;
 }

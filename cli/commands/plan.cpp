@@ -28,7 +28,7 @@ void check_out(const thermal::Path& out) {
 
 int run_plan(const PlanArguments& options, const CommonOptions& common) {
   const thermal::Assets assets = thermal::Assets::find();
-  const thermal::Config given =
+  const thermal::ResolvedConfig given =
       load_config(options.config, with_engine(options.settings, options.engine), assets);
   // Without a trailing slash: the plan is built beside the folder.
   const thermal::Path out = std::filesystem::absolute(options.out + "/").lexically_normal().parent_path();
@@ -38,7 +38,7 @@ int run_plan(const PlanArguments& options, const CommonOptions& common) {
     if (!options.blender.empty()) planning.blender = find_blender(options.blender);
     dataset = thermal::plan_with_config(out, given, options.config, planning);
   });
-  if (!common.quiet) print_plan(dataset.config, dataset.plan, dataset.config.clips);
+  if (!common.quiet) print_plan(dataset.config.spec, dataset.plan, dataset.config.spec.clips);
   return kDone;
 }
 

@@ -52,7 +52,7 @@ void plan_into_folder(const StreamArguments& options, const thermal::Path& folde
                       const thermal::Assets& assets, const CommonOptions& common) {
   std::vector<std::string> settings = options.settings;
   settings.insert(settings.end(), {"render.engine=embree", "render.posed_actors=all"});
-  const thermal::Config config = load_config(options.config, settings, assets);
+  const thermal::ResolvedConfig config = load_config(options.config, settings, assets);
   plan_with_progress(common, assets, [&](const thermal::PlanOptions& planning) {
     thermal::plan_with_config(folder, config, options.config, planning);
   });

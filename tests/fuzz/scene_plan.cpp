@@ -36,33 +36,34 @@ class PlanFolder {
 
 void demand_sound(const PlannedDataset& dataset) {
   const auto& [config, plan] = dataset;
-  demand(config.flights.empty(), "flights are cut into clips");
-  demand(config.clips.size() == plan.clips.size(), "the config has the plan's clips");
+  const thermal::DatasetSpec& spec = config.spec;
+  demand(spec.flights.empty(), "flights are cut into clips");
+  demand(spec.clips.size() == plan.clips.size(), "the config has the plan's clips");
   std::set<std::string> ids;
   for (std::size_t k = 0; k < plan.clips.size(); ++k) {
-    demand(config.clips[k].id == plan.clips[k].id && config.clips[k].frames == plan.clips[k].frames,
+    demand(spec.clips[k].id == plan.clips[k].id && spec.clips[k].frames == plan.clips[k].frames,
            "a clip is the same in config and plan");
-    demand(config.clips[k].frames > 0 && plan.clips[k].frames_with_actors >= 0, "a clip has frames");
+    demand(spec.clips[k].frames > 0 && plan.clips[k].frames_with_actors >= 0, "a clip has frames");
     demand(ids.insert(plan.clips[k].id).second, "an id stands for one clip");
   }
-  demand(config.resolved.at("clips").size() == config.clips.size(), "the resolved config has them too");
+  demand(config.document.at("clips").size() == spec.clips.size(), "the document has them too");
 }
 
 /// Shards and the budget of terms, as a job of a cluster works them out before it renders.
 /// The budget takes milliseconds, so not every plan has one.
 void use(const PlannedDataset& dataset, bool with_budget) {
   static const thermal::MaterialLibrary kMaterials = thermal::read_materials(kAssets);
-  const auto& [config, plan] = dataset;
+  const thermal::DatasetSpec& spec = dataset.config.spec;
   std::size_t chosen = 0;
   int frames = 0;
   for (int shard = 0; shard < 3; ++shard) {
-    const auto clips = thermal::choose_clips(config, {}, {shard, 3});
+    const auto clips = thermal::choose_clips(spec, {}, {shard, 3});
     chosen += clips.size();
     frames += thermal::frames_of(clips);
   }
-  demand(chosen == config.clips.size() && frames > 0, "a clip belongs to one shard");
-  const thermal::SceneOutline outline = thermal::outline_of(config, plan, kMaterials);
-  if (with_budget) (void)thermal::weigh_terms(outline, config.terms);
+  demand(chosen == spec.clips.size() && frames > 0, "a clip belongs to one shard");
+  const thermal::SceneOutline outline = thermal::outline_of(spec, dataset.plan, kMaterials);
+  if (with_budget) (void)thermal::weigh_terms(outline, spec.settings->terms);
 }
 
 }  // namespace

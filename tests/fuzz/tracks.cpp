@@ -65,8 +65,7 @@ void use(const BakedTrack& track, const BakedScene& scene, const thermal::RayCas
   thermal::Passes passes;
   for (std::size_t frame = 0; frame < std::min(track.frames, kMostFrames); ++frame)
     tracer.trace(frame, {.depth = true, .normals = true, .actors = true, .mirrored = true}, passes);
-  const thermal::Config config;
-  thermal::manifest_of(scene, track, thermal::ClipPlan(), config, config).validate();
+  thermal::manifest_of(scene, track, thermal::DatasetSpec(), thermal::ClipSpec()).validate();
 }
 
 }  // namespace

@@ -1,17 +1,16 @@
 #pragma once
 
 #include "dataset/clip/record.h"
-#include "io/config/config.h"
+#include "io/json/file.h"
 
 /// A dataset of two clips, "a" and "b", without pictures; what is written of them is synthetic.
 namespace two_clips {
 
-inline thermal::Config config() {
-  thermal::Config config;
-  config.name = "night";
-  config.clips = {{.id = "a"}, {.id = "b"}};
-  config.resolved = {{"name", "night"}, {"seed", 1}, {"sensor", {{"kelvin_per_count", 0.01}}}};
-  return config;
+inline const std::vector<std::string> kIds = {"a", "b"};
+
+/// What an index reads of its config.
+inline thermal::Json document() {
+  return {{"name", "night"}, {"seed", 1}, {"sensor", {{"kelvin_per_count", 0.01}}}};
 }
 
 inline thermal::Json labels(const std::string& id) {

@@ -72,8 +72,8 @@ class Line {
   Line(const ConvertJob& job, const ClipTask& task)
       : manifest_(job.scene.manifest),
         task_(task),
-        converter_(manifest_, job.materials, task.clip.season, task.sensor, task.physics),
-        camera_(task.sensor, clip(), converter_.brightest_w_m2_sr()) {}
+        converter_(manifest_, job.materials, task.clip.season, task.settings().sensor, task.physics),
+        camera_(task.settings().sensor, clip(), converter_.brightest_w_m2_sr()) {}
 
   [[nodiscard]] PassNeeds needs() const { return converter_.needs(); }
   void convert(const Passes& passes) { converter_.convert(passes, manifest_.frames[0], scene_); }
@@ -88,8 +88,9 @@ class Line {
     annotations.add_frame(0, scene_.instances);
     std::size_t bytes = 0;
     annotations.write([&bytes](std::string_view text) { bytes += text.size(); });
-    return bytes +
-           tone_record(pictures_.curve, task_.sensor.agc, converter_.brightest_w_m2_sr()).dump().size();
+    return bytes + tone_record(pictures_.curve, task_.settings().sensor.agc, converter_.brightest_w_m2_sr())
+                       .dump()
+                       .size();
   }
   [[nodiscard]] const SensorFrame& pictures() const { return pictures_; }
 

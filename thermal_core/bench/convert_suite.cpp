@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -112,7 +114,8 @@ ClipTask task_of(const BenchScene& scene) {
 /// Every term that reads planes, and a camera with every stage.
 ClipTask physical_task_of(const BenchScene& scene) {
   ClipTask task = task_of(scene);
-  task.sensor = full_camera();
+  auto settings = std::make_shared<ClipSettings>();
+  settings->sensor = full_camera();
   const Terms terms = {.variation = true,
                        .parts = true,
                        .sky = true,
@@ -120,8 +123,11 @@ ClipTask physical_task_of(const BenchScene& scene) {
                        .mirror = true,
                        .path = true,
                        .falloff = false};
-  task.physics = PhysicsSettings{
-      .terms = terms, .weather = weather_of(Season::winter), .response = task.sensor.response, .seed = 1};
+  task.physics = PhysicsSettings{.terms = terms,
+                                 .weather = weather_of(Season::winter),
+                                 .response = settings->sensor.response,
+                                 .seed = 1};
+  task.clip.settings = std::move(settings);
   return task;
 }
 

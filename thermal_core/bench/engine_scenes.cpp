@@ -37,9 +37,9 @@ class Planner {
  public:
   explicit Planner(const EngineScenesTask& task) : task_(task) {}
 
-  [[nodiscard]] Config config(const char* name) const {
+  [[nodiscard]] Json document(const char* name) const {
     const Path file = task_.assets.config(name);
-    return resolve_config(read_json(file), file.string(), task_.assets);
+    return resolve_config(read_json(file), file.string(), task_.assets).document;
   }
 
   [[nodiscard]] EngineScene planned(const char* name, Json document, std::vector<EngineClip> clips) const {
@@ -59,11 +59,11 @@ class Planner {
 
 std::vector<EngineScene> plan_engine_scenes(const EngineScenesTask& task) {
   const Planner planner(task);
-  Json demo = planner.config("demo").resolved;
+  Json demo = planner.document("demo");
   demo["clips"] = {demo.at("clips").back()};
   demo["clips"][0]["id"] = "demo";
   demo["clips"][0]["frames"] = kEngineFrames;
-  Json savanna = planner.config("savanna").resolved;
+  Json savanna = planner.document("savanna");
   const Json oblique = view(savanna, "oblique", 122, 45);
   savanna["clips"] = {view(savanna, "down", 61, 90), oblique, view(savanna, "horizon", 61, 8)};
   Json dense = savanna;

@@ -100,7 +100,7 @@ BlockRays reference_rays(const std::map<Square, double>& squares, std::size_t ce
 
 RenderRow measured(const Case& one, const Path& folder, const MapsSuiteTask& task) {
   task.announce(one.name + ", planning");
-  const Config config = resolve_config(one.document, one.name, task.assets);
+  const ResolvedConfig config = resolve_config(one.document, one.name, task.assets);
   const PlanOptions options = {.assets = task.assets, .threads = task.threads};
   Json bare = one.document;
   bare["scene"]["temperatures"] = "table_1";  // the same plan without maps
@@ -108,7 +108,7 @@ RenderRow measured(const Case& one, const Path& folder, const MapsSuiteTask& tas
       plan_into(folder / one.name, resolve_config(std::move(bare), one.name, task.assets), one.name, options);
   task.announce(one.name);
   std::vector<SunDay> days;
-  for (const SunPath& path : sun_paths(config)) days.push_back({.path = path, .sun = sun_hours(path)});
+  for (const SunPath& path : sun_paths(config.spec)) days.push_back({.path = path, .sun = sun_hours(path)});
   const double begin_s = processor_s();
   const BakedScene scene = read_baked_scene(folder / one.name, task.assets);
   const std::vector<GroundView> views = ground_views(folder / one.name, plan, scene, task.assets);
@@ -148,7 +148,7 @@ RenderRow measured(const Case& one, const Path& folder, const MapsSuiteTask& tas
 std::vector<Case> cases(const Assets& assets) {
   const auto document = [&assets](const char* name) {
     const Path file = assets.config(name);
-    return resolve_config(read_json(file), file.string(), assets).resolved;
+    return resolve_config(read_json(file), file.string(), assets).document;
   };
   Json horizon = document("savanna");
   Json clip = horizon.at("clips").back();

@@ -277,16 +277,15 @@ std::vector<UnusableShare> DatasetIndex::unusable(const std::vector<std::string>
   return shares;
 }
 
-void check_same_dataset(const Layout& layout, const Config& config) {
-  if (layout.is_begun()) check_same_config(layout, config.resolved, read_started(layout));
+void check_same_dataset(const Layout& layout, const ResolvedConfig& config) {
+  if (layout.is_begun()) check_same_config(layout, config.document, read_started(layout));
 }
 
-DatasetIndex open_dataset(const Layout& layout, const Config& config) {
-  DatasetIndex index{.config = config.resolved, .physics = {}, .clips = {}, .finished = {}, .failed = {}};
+DatasetIndex open_dataset(const Layout& layout, const Json& document, const std::vector<std::string>& clips) {
+  DatasetIndex index{.config = document, .physics = {}, .clips = clips, .finished = {}, .failed = {}};
   const bool begun = layout.is_begun();
   const Json there = begun ? read_started(layout) : Json();
-  if (begun) check_same_config(layout, config.resolved, there);
-  for (const ClipConfig& clip : config.clips) index.clips.push_back(clip.id);
+  if (begun) check_same_config(layout, document, there);
   if (begun) index.failed = failed_there(there);
   find_finished(layout, index);
   index.recorded = begun && is_recorded(layout, index, there);

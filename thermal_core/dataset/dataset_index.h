@@ -61,10 +61,13 @@ struct DatasetIndex {
 
 /// Opens a dataset's folder: finds its complete clips, or starts a new one. ConfigError with the keys that differ from
 /// another config's dataset.
-[[nodiscard]] DatasetIndex open_dataset(const Layout& layout, const Config& config);
+/// @param document  of the resolved config
+/// @param clips  all of its ids
+[[nodiscard]] DatasetIndex open_dataset(const Layout& layout, const Json& document,
+                                        const std::vector<std::string>& clips);
 
 /// The check alone: ConfigError with the keys that differ if the folder holds a dataset made from another config.
-void check_same_dataset(const Layout& layout, const Config& config);
+void check_same_dataset(const Layout& layout, const ResolvedConfig& config);
 
 /// Adds progress that other runs have made meanwhile. `own` clips belong to this run, which knows their state.
 void catch_up(const Layout& layout, const std::set<std::string>& own, DatasetIndex& index);

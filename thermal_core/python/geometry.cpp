@@ -28,18 +28,18 @@ class Camera {
  public:
   Camera(const std::string& sections, const std::string& home, const std::string& clip, std::uint32_t seed,
          double frame_rate_hz, double air_k, double brightest_w_m2_sr)
-      : config_(config_of_sections(sections, "camera", Assets(home))),
+      : settings_(settings_of_sections(sections, "camera", Assets(home))),
         camera_(
-            config_.sensor,
+            settings_->sensor,
             {.id = clip,
              .seed = seed,
              .frame_rate_hz = within(0.1, 240, frame_rate_hz, "frame_rate_hz", "Hz"),
-             .width_px = config_.camera.width_px,
-             .height_px = config_.camera.height_px,
+             .width_px = settings_->camera.width_px,
+             .height_px = settings_->camera.height_px,
              .noise_gain = {},
              .air_k = within(150, 350, air_k, "air_k", "K")},
             static_cast<float>(within(1e-6, 1e6, brightest_w_m2_sr, "brightest_w_m2_sr", "W m^-2 sr^-1"))),
-        radiance_w_m2_sr_(config_.camera.width_px, config_.camera.height_px) {}
+        radiance_w_m2_sr_(settings_->camera.width_px, settings_->camera.height_px) {}
 
   [[nodiscard]] py::tuple expose(const py::object& given) {
     const ArrayOf<float> radiance_w_m2_sr(plane_in(given, "radiance_w_m2_sr"));
@@ -63,18 +63,18 @@ class Camera {
   [[nodiscard]] double temperature_k(double radiance_w_m2_sr) const {
     return camera_.temperature_k(radiance_w_m2_sr);
   }
-  [[nodiscard]] const Config& config() const { return config_; }
+  [[nodiscard]] const ClipSettings& settings() const { return *settings_; }
 
  private:
   void check_shape(const ArrayOf<float>& radiance_w_m2_sr) const {
-    const CameraIntrinsics& camera = config_.camera;
+    const CameraIntrinsics& camera = settings_->camera;
     if (radiance_w_m2_sr.shape(0) == camera.height_px && radiance_w_m2_sr.shape(1) == camera.width_px) return;
     throw ConfigError(fault(
         "radiance_w_m2_sr", fmt::format("{} x {}", radiance_w_m2_sr.shape(1), radiance_w_m2_sr.shape(0)),
         "px", fmt::format("{} x {}, as the camera has", camera.width_px, camera.height_px)));
   }
 
-  Config config_;
+  SharedSettings settings_;
   ThermalCamera camera_;
   Plane<float> radiance_w_m2_sr_;
   std::mutex mutex_;
@@ -91,14 +91,14 @@ void add_camera(py::module_& module) {
       .def("expose", &Camera::expose, py::arg("radiance_w_m2_sr"))
       .def("skip", &Camera::skip)
       .def("temperature_k", &Camera::temperature_k, py::arg("radiance_w_m2_sr"))
-      .def_property_readonly("width_px", [](const Camera& of) { return of.config().camera.width_px; })
-      .def_property_readonly("height_px", [](const Camera& of) { return of.config().camera.height_px; })
+      .def_property_readonly("width_px", [](const Camera& of) { return of.settings().camera.width_px; })
+      .def_property_readonly("height_px", [](const Camera& of) { return of.settings().camera.height_px; })
       .def_property_readonly("kelvin_per_count",
-                             [](const Camera& of) { return of.config().sensor.kelvin_per_count; })
-      .def_property_readonly("netd_k", [](const Camera& of) { return of.config().netd_k; })
+                             [](const Camera& of) { return of.settings().sensor.kelvin_per_count; })
+      .def_property_readonly("netd_k", [](const Camera& of) { return of.settings().netd_k; })
       .def_property_readonly("response", [](const Camera& of) {
         py::list samples;
-        for (const SpectralResponse::Sample& one : of.config().sensor.response.samples())
+        for (const SpectralResponse::Sample& one : of.settings().sensor.response.samples())
           samples.append(py::make_tuple(one.wavelength_um, one.response));
         return samples;
       });

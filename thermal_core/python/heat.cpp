@@ -31,7 +31,7 @@ Season season_of(const std::string& name) {
 class Day {
  public:
   Day(const std::string& season, const std::string& sections, const std::string& home)
-      : Day(season_of(season), config_of_sections(sections, "weather", Assets(home)), Assets(home)) {}
+      : Day(season_of(season), *settings_of_sections(sections, "weather", Assets(home)), Assets(home)) {}
 
   [[nodiscard]] const std::vector<std::string>& materials() const { return names_; }
 
@@ -78,8 +78,8 @@ class Day {
   [[nodiscard]] double open_moisture() const { return moisture_after_rain(heat_.weather().rain_days_ago); }
 
  private:
-  Day(Season season, const Config& config, const Assets& assets)
-      : heat_(config.weather[static_cast<std::size_t>(season)].day,
+  Day(Season season, const ClipSettings& settings, const Assets& assets)
+      : heat_(settings.weather[static_cast<std::size_t>(season)].day,
               heat_of_materials(read_materials(assets))) {
     for (const auto& [name, heat] : heat_of_materials(read_materials(assets))) names_.push_back(name);
   }

@@ -5,7 +5,7 @@
 #include <pybind11/pybind11.h>
 
 #include "io/assets.h"
-#include "io/config/config.h"
+#include "io/config/spec.h"
 
 namespace thermal::python {
 
@@ -24,10 +24,9 @@ void add_video_chain(pybind11::module_& module);
 void add_world(pybind11::module_& module);
 void add_files(pybind11::module_& module);
 
-/// Completes some sections of a config to a whole config, checked and with defaults, with a dummy clip "clip" of one
-/// frame. `sections`: a JSON object with any of camera, sensor, weather, terms and labels. ConfigError, starting with
-/// `name`.
-[[nodiscard]] Config config_of_sections(const std::string& sections, const std::string& name,
-                                        const Assets& assets);
+/// What some sections of a config mean, checked and with defaults. `sections`: a JSON object with any of camera, sensor,
+/// weather, terms and labels. ConfigError, starting with `name`.
+[[nodiscard]] SharedSettings settings_of_sections(const std::string& sections, const std::string& name,
+                                                  const Assets& assets);
 
 }  // namespace thermal::python

@@ -76,7 +76,7 @@ struct Sources {
   std::string home;
 };
 
-Config config_of(const Sources& sources) {
+ResolvedConfig config_of(const Sources& sources) {
   Json document = parse_json(sources.config, sources.name);
   for (const std::string& setting : sources.settings) apply_setting(document, setting);
   root_files(document, sources.folder);
@@ -109,7 +109,8 @@ struct RunSettings {
 
 RunOutcome run(const PlannedDataset& dataset, GenerateOptions options, const RunSettings& settings,
                Listener& listener) {
-  if (dataset.config.engine == Engine::blender) options.blender = find_blender(settings.blender, "blender");
+  if (dataset.config.spec.engine == Engine::blender)
+    options.blender = find_blender(settings.blender, "blender");
   const RunHooks hooks = {.progress = [&](const Progress& now) { listener.report("frames", now); },
                           .cancelled = [&] { return listener.is_to_stop(); }};
   try {
@@ -140,12 +141,12 @@ py::dict generate_config(const Sources& sources, const std::string& out, const R
   {
     const py::gil_scoped_release others_run;
     GenerateOptions options = options_of(sources.home, out, Layout{out}.plan(), settings);
-    const Config config = config_of(sources);
+    const ResolvedConfig config = config_of(sources);
     DatasetPlan plan =
         plan_to_generate(out, config, sources.name, planning_of(options.assets, settings.threads, listener));
     listener.raise();
-    Config cut = with_flights_cut(config, plan, (options.plan / "plan.json").string());
-    (void)choose_clips(cut, options.clips, options.shard);
+    ResolvedConfig cut = with_flights_cut(config, plan, (options.plan / "plan.json").string());
+    (void)choose_clips(cut.spec, options.clips, options.shard);
     outcome =
         run({.config = std::move(cut), .plan = std::move(plan)}, std::move(options), settings, listener);
   }
@@ -160,7 +161,7 @@ py::dict generate_plan(const std::string& plan, const std::string& home, const s
     const py::gil_scoped_release others_run;
     GenerateOptions options = options_of(home, out, plan, settings);
     const PlannedDataset dataset = open_plan(plan, options.assets);
-    check_files_of_clips(plan, ids_of(choose_clips(dataset.config, options.clips, options.shard)));
+    check_files_of_clips(plan, ids_of(choose_clips(dataset.config.spec, options.clips, options.shard)));
     outcome = run(dataset, std::move(options), settings, listener);
   }
   return dict_of(outcome);
@@ -173,7 +174,7 @@ std::vector<std::string> plan_config(const Sources& sources, const std::string& 
   const PlannedDataset planned = plan_with_config(folder, config_of(sources), sources.name,
                                                   planning_of(Assets(sources.home), threads, listener));
   listener.raise();
-  return ids_of(planned.config.clips);
+  return ids_of(planned.config.spec.clips);
 }
 
 }  // namespace

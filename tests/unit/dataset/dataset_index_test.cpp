@@ -14,7 +14,6 @@ namespace {
 struct Place {
   TestFolder folder;
   Layout layout{folder.path()};
-  Config config = two_clips::config();
 
   /// Writes a complete clip of two frames into the folder.
   [[nodiscard]] ClipRecord finish(const std::string& id) const {
@@ -22,7 +21,9 @@ struct Place {
     return two_clips::write(layout.clip(id), id);
   }
 
-  [[nodiscard]] DatasetIndex open() const { return open_dataset(layout, config); }
+  [[nodiscard]] DatasetIndex open() const {
+    return open_dataset(layout, two_clips::document(), two_clips::kIds);
+  }
   [[nodiscard]] Json document() const { return read_json(layout.dataset_json()); }
   [[nodiscard]] std::size_t joined() const { return read_json(layout.annotations_json())["videos"].size(); }
 };

@@ -207,7 +207,7 @@ Json with_few_clips(Json document, int most) {
 
 /// Config, plan and stored radiance of a document.
 struct Footage {
-  Config config;
+  ResolvedConfig config;
   DatasetPlan plan;
   StoredRadiance radiance;
 };
@@ -227,21 +227,21 @@ class Fitter {
     const RealFeatures fitted(copies_of(halves.first), options_.seed);
     const std::vector<FrameFigures> judging = copies_of(halves.second);
     auto footage = footage_of("first");
-    std::vector<FrameFigures> before = footage->radiance.measured(footage->config, targets_);
+    std::vector<FrameFigures> before = footage->radiance.measured(footage->config.spec, targets_);
     Fit found;
     found.distance_before = fitted.distance(before);
     if (fit_size(fitted.frames(), before, *footage, found)) footage = footage_of("resized");
-    const FittedSpace space(document_, footage->config.resolved);
+    const FittedSpace space(document_, footage->config.document);
     const auto cost = [&](const std::vector<double>& point) {
       return fitted.distance(
-          footage->radiance.measured(config_of(space.document_at(point), *footage), targets_));
+          footage->radiance.measured(spec_of(space.document_at(point), *footage), targets_));
     };
     SettingsSearch search(space, options_.trials, cost, options_.trying);
     search.run();
     found.document = space.document_at(search.best());
     add_changes(space, search.best(), found);
     const std::vector<FrameFigures> after =
-        footage->radiance.measured(config_of(found.document, *footage), targets_);
+        footage->radiance.measured(spec_of(found.document, *footage), targets_);
     found.distance_after = search.least();
     found.trials = search.done();
     found.real_fitted = fitted.frames().size();
@@ -252,23 +252,23 @@ class Fitter {
   }
 
  private:
-  [[nodiscard]] Config resolved(const Json& document) const {
+  [[nodiscard]] ResolvedConfig resolved(const Json& document) const {
     Json rooted = with_few_clips(document, options_.clips);
     root_files(rooted, std::filesystem::absolute(options_.config_name).parent_path());
     return resolve_config(std::move(rooted), options_.config_name, options_.assets);
   }
 
-  [[nodiscard]] Config config_of(const Json& document, const Footage& footage) const {
-    return with_flights_cut(resolved(document), footage.plan, "plan");
+  [[nodiscard]] DatasetSpec spec_of(const Json& document, const Footage& footage) const {
+    return with_flights_cut(resolved(document), footage.plan, "plan").spec;
   }
 
   std::unique_ptr<Footage> footage_of(const std::string& name) {
     const Path folder = folder_.path() / name;
-    const Config config = resolved(document_);
-    check_can_be_exposed(config, options_.config_name);
+    const ResolvedConfig config = resolved(document_);
+    check_can_be_exposed(config.spec, options_.config_name);
     DatasetPlan plan = plan_(folder, config);
-    Config cut = with_flights_cut(config, plan, "plan");
-    StoredRadiance radiance(cut, plan, folder, static_cast<std::size_t>(options_.clips), options_.assets,
+    ResolvedConfig cut = with_flights_cut(config, plan, "plan");
+    StoredRadiance radiance(cut.spec, plan, folder, static_cast<std::size_t>(options_.clips), options_.assets,
                             options_.rendering);
     return std::make_unique<Footage>(Footage{std::move(cut), std::move(plan), std::move(radiance)});
   }
@@ -293,14 +293,14 @@ class Fitter {
     }
     const double ratio = median_of(of_real) / median_of(of_made);
     if (std::abs(std::log(ratio)) < kRightSize) return false;
-    if (footage.config.gives_intrinsics) {
+    if (footage.config.spec.settings->gives_intrinsics) {
       found.no_size = fmt::format(
           "targets are {:.2f} times as high, but the config gives the camera's intrinsics", ratio);
       return false;
     }
     const Json before = document_.value(Json::json_pointer("/camera/focal_length_m"), Json());
     const Json after =
-        scaled(before.is_null() ? footage.config.resolved["camera"]["focal_length_m"] : before, ratio);
+        scaled(before.is_null() ? footage.config.document["camera"]["focal_length_m"] : before, ratio);
     document_["camera"]["focal_length_m"] = after;
     found.changed.push_back({.key = "camera.focal_length_m", .before = before, .after = after});
     return true;

@@ -34,7 +34,7 @@ struct FitOptions {
 };
 
 /// Plans a config into a folder.
-using PlanInto = std::function<DatasetPlan(const Path& folder, const Config& config)>;
+using PlanInto = std::function<DatasetPlan(const Path& folder, const ResolvedConfig& config)>;
 
 /// A feature of frames or targets: medians, and how well it alone separates frames from the held-out half of the real
 /// ones (area under the curve, .5 or more).

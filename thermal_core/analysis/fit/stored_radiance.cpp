@@ -39,36 +39,37 @@ std::vector<LabelBox> boxes_of(const std::vector<Instance>& instances, const Man
 
 }  // namespace
 
-void check_can_be_exposed(const Config& config, const std::string& name) {
-  if (!config.physical)
+void check_can_be_exposed(const DatasetSpec& spec, const std::string& name) {
+  if (!spec.physical)
     throw ConfigError(
         fault(name + ": sensor.model", "\"published\"", "",
               "physical, or a preset of a camera: the published model has nothing of what is fitted"));
-  if (config.engine != Engine::embree)
+  if (spec.engine != Engine::embree)
     throw ConfigError(fault(name + ": render.engine", "\"blender\"", "", "\"embree\" or \"auto\""));
 }
 
-StoredRadiance::StoredRadiance(const Config& config, const DatasetPlan& plan, const Path& folder,
+StoredRadiance::StoredRadiance(const DatasetSpec& spec, const DatasetPlan& plan, const Path& folder,
                                std::size_t most_clips, const Assets& assets, const RunHooks& hooks) {
   const MaterialLibrary materials = read_materials(assets);
   HeatDays heat(materials);
-  const auto ground = read_needed_ground_maps(folder, config, assets);
-  const KeptTerms kept(config, outline_of(config, plan, materials));
-  const PlanTracer tracer(folder, config, plan, assets);
-  const std::vector<std::size_t> chosen = evenly(config.clips.size(), most_clips);
+  const auto ground = read_needed_ground_maps(folder, spec, assets);
+  const KeptTerms kept(spec, outline_of(spec, plan, materials));
+  const PlanTracer tracer(folder, spec, assets);
+  const std::vector<std::size_t> chosen = evenly(spec.clips.size(), most_clips);
   Progress progress;
-  for (const std::size_t k : chosen) progress.total += config.clips[k].frames;
+  for (const std::size_t k : chosen) progress.total += spec.clips[k].frames;
   for (const std::size_t k : chosen) {
-    const ClipConfig& clip = config.clips[k];
-    ClipPasses passes = tracer.trace(clip.id, folder / clip.id, false);
+    const ClipSpec& clip = spec.clips[k];
+    ClipPasses passes = tracer.trace(clip, folder / clip.id, false);
     ClipScenes scenes(passes.manifest, materials);
-    Clip stored = {.manifest = {},
-                   .task = task_of(config, clip, kept.of(settings_of(config, clip)), heat, ground),
+    Clip stored = {.place = k,
+                   .manifest = {},
+                   .task = task_of(spec, clip, kept.of(clip), heat, ground),
                    .temperatures = {},
                    .frames = std::vector<SceneFrame>(static_cast<std::size_t>(clip.frames))};
     const std::size_t scene = scenes.add(stored.task);
     stored.brightest_w_m2_sr = scenes.brightest_w_m2_sr(scene);
-    stored.temperatures = scenes.temperatures(stored.task.sensor.response);
+    stored.temperatures = scenes.temperatures(clip.settings->sensor.response);
     progress.clip = clip.id;
     for (int frame = 0; frame < clip.frames; ++frame) {
       if (hooks.stop_wanted()) throw Cancelled();
@@ -85,10 +86,12 @@ StoredRadiance::StoredRadiance(const Config& config, const DatasetPlan& plan, co
   }
 }
 
-std::vector<FrameFigures> StoredRadiance::measured(const Config& config, const TargetChoice& targets) const {
+std::vector<FrameFigures> StoredRadiance::measured(const DatasetSpec& spec,
+                                                   const TargetChoice& targets) const {
   std::vector<std::vector<FrameFigures>> by_clip(clips_.size());
   parallel_for(clips_.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) by_clip[k] = measured(clips_[k], config, targets);
+    for (std::size_t k = begin; k < end; ++k)
+      by_clip[k] = measured(clips_[k], *spec.clips[clips_[k].place].settings, targets);
   });
   std::vector<FrameFigures> all;
   for (std::size_t clip = 0; clip < by_clip.size(); ++clip) {
@@ -101,13 +104,14 @@ std::vector<FrameFigures> StoredRadiance::measured(const Config& config, const T
   return all;
 }
 
-std::vector<FrameFigures> StoredRadiance::measured(const Clip& clip, const Config& config,
+std::vector<FrameFigures> StoredRadiance::measured(const Clip& clip, const ClipSettings& settings,
                                                    const TargetChoice& targets) {
-  const ClipSettings& settings = settings_of(config, config.clip(clip.task.clip.id, "clips"));
+  auto exposed = std::make_shared<ClipSettings>(clip.task.settings());
+  exposed->sensor = settings.sensor;
+  exposed->link = settings.link;
+  exposed->codec = settings.codec;
   ClipTask task = clip.task;
-  task.sensor = settings.sensor;
-  task.link = settings.link;
-  task.codec = settings.codec;
+  task.clip.settings = exposed;
   ClipImager imager(task, clip.manifest, clip.brightest_w_m2_sr, clip.temperatures);
   ClipImager::Frame frame;
   std::vector<FrameFigures> found;
@@ -117,7 +121,8 @@ std::vector<FrameFigures> StoredRadiance::measured(const Clip& clip, const Confi
     const Plane<std::uint8_t>& picture = frame.pictures.ir8;
     Plane<float> levels(picture.width_px(), picture.height_px());
     std::ranges::copy(picture.pixels(), levels.pixels().begin());
-    found.push_back(measure_frame(levels, boxes_of(scene.instances, clip.manifest, task.labels, targets)));
+    found.push_back(
+        measure_frame(levels, boxes_of(scene.instances, clip.manifest, exposed->labels, targets)));
   }
   return found;
 }

@@ -10,7 +10,7 @@
 #include "dataset/progress.h"
 #include "imaging/frame_converter.h"
 #include "io/assets.h"
-#include "io/config/config.h"
+#include "io/config/spec.h"
 #include "labels/box_style.h"
 #include "radiometry/radiance_table.h"
 
@@ -23,24 +23,26 @@ struct TargetChoice {
 };
 
 /// ConfigError, starting with `name`, unless a config has the physical model and the engine `embree`.
-void check_can_be_exposed(const Config& config, const std::string& name);
+void check_can_be_exposed(const DatasetSpec& spec, const std::string& name);
 
 /// Radiance of some clips, rendered once, to be exposed repeatedly by other cameras, links and codecs.
 class StoredRadiance {
  public:
-  /// Renders the frames of clips that are spread evenly over those of a config, `most_clips` at most. `plan`: the config's,
-  /// in `folder`; it must pass check_can_be_exposed(). DataError and IoError as PlanTracer.
-  StoredRadiance(const Config& config, const DatasetPlan& plan, const Path& folder, std::size_t most_clips,
+  /// Renders the frames of clips that are spread evenly over those of a dataset, `most_clips` at most. `plan`: the
+  /// dataset's, in `folder`; it must pass check_can_be_exposed(). DataError and IoError as PlanTracer.
+  StoredRadiance(const DatasetSpec& spec, const DatasetPlan& plan, const Path& folder, std::size_t most_clips,
                  const Assets& assets, const RunHooks& hooks);
 
-  /// The frames exposed with the sensor, link and codec of `config`'s clips; everything else is that of the rendered
-  /// config. A clip is a unit.
-  [[nodiscard]] std::vector<FrameFigures> measured(const Config& config, const TargetChoice& targets) const;
+  /// The frames exposed with the sensor, link and codec of `spec`'s clips, the same in the same order; everything else is
+  /// that of the rendered dataset. A clip is a unit.
+  [[nodiscard]] std::vector<FrameFigures> measured(const DatasetSpec& spec,
+                                                   const TargetChoice& targets) const;
 
   [[nodiscard]] std::size_t clips() const noexcept { return clips_.size(); }
 
  private:
   struct Clip {
+    std::size_t place = 0;  ///< among those of the dataset
     Manifest manifest;
     ClipTask task;
     float brightest_w_m2_sr = 0;
@@ -48,7 +50,7 @@ class StoredRadiance {
     std::vector<SceneFrame> frames;
   };
 
-  static std::vector<FrameFigures> measured(const Clip& clip, const Config& config,
+  static std::vector<FrameFigures> measured(const Clip& clip, const ClipSettings& settings,
                                             const TargetChoice& targets);
 
   std::vector<Clip> clips_;

@@ -78,8 +78,8 @@ std::string no_frame_left(const std::string& first, int count) {
 bool can_be_mended(const ClipPasses& passes, const ClipTask& task, const MaterialLibrary& materials,
                    const std::vector<SkippedFrame>& skipped) {
   const PassReader reader = reader_for(passes);
-  const FrameConverter converter(passes.manifest, materials, task.clip.season, task.sensor, task.physics,
-                                 task.distortion);
+  const FrameConverter converter(passes.manifest, materials, task.clip.season, task.settings().sensor,
+                                 task.physics, task.settings().distortion);
   return std::any_of(skipped.begin(), skipped.end(), [&](const SkippedFrame& frame) {
     return can_convert(passes, reader, converter, frame.frame_index);
   });

@@ -18,30 +18,33 @@ ThermalCamera::Clip sensor_clip(const ClipTask& task, const Manifest& manifest) 
           .width_px = manifest.camera.width_px,
           .height_px = manifest.camera.height_px,
           .noise_gain = falloff ? falloff_noise_gain(manifest.camera) : Plane<float>(),
-          .sampling = pixel_sampling(manifest, task.distortion),
+          .sampling = pixel_sampling(manifest, task.settings().distortion),
           .air_k = task.physics ? air_at_camera_k(with_inversion(*task.physics, manifest).air)
                                 : ThermalCamera::Clip().air_k};
 }
 
 std::optional<AnalogueLink> link_of(const ClipTask& task, const Manifest& manifest) {
-  if (!task.link) return std::nullopt;
-  return AnalogueLink(*task.link, {.seed = task.seed,
-                                   .id = task.clip.id,
-                                   .frame_rate_hz = manifest.frame_rate_hz,
-                                   .width_px = manifest.camera.width_px,
-                                   .height_px = manifest.camera.height_px});
+  const std::optional<AnalogueLinkParameters>& link = task.settings().link;
+  if (!link) return std::nullopt;
+  return AnalogueLink(*link, {.seed = task.seed,
+                              .id = task.clip.id,
+                              .frame_rate_hz = manifest.frame_rate_hz,
+                              .width_px = manifest.camera.width_px,
+                              .height_px = manifest.camera.height_px});
 }
 
 std::optional<VideoCodec> codec_of(const ClipTask& task, const Manifest& manifest) {
-  if (!task.codec) return std::nullopt;
-  return VideoCodec(*task.codec, manifest.frame_rate_hz, manifest.camera.width_px, manifest.camera.height_px);
+  const std::optional<VideoCodecSettings>& codec = task.settings().codec;
+  if (!codec) return std::nullopt;
+  return VideoCodec(*codec, manifest.frame_rate_hz, manifest.camera.width_px, manifest.camera.height_px);
 }
 
 }  // namespace
 
 ClipImager::ClipImager(const ClipTask& task, const Manifest& manifest, float brightest_w_m2_sr,
                        std::shared_ptr<const TemperatureTable> temperatures)
-    : camera_(task.sensor, sensor_clip(task, manifest), brightest_w_m2_sr, std::move(temperatures)),
+    : camera_(task.settings().sensor, sensor_clip(task, manifest), brightest_w_m2_sr,
+              std::move(temperatures)),
       link_(link_of(task, manifest)),
       codec_(codec_of(task, manifest)) {}
 

@@ -91,10 +91,12 @@ Path fresh_folder(const Path& folder) {
 
 /// Whether thresholds turn a task's 8-bit frames back into kelvin: nothing filters, sharpens, sends or encodes them.
 bool is_invertible(const ClipTask& task) {
-  const AgcParameters& agc = task.sensor.agc;
-  const ProcessingParameters& processing = task.sensor.processing;
+  const ClipSettings& settings = task.settings();
+  const AgcParameters& agc = settings.sensor.agc;
+  const ProcessingParameters& processing = settings.sensor.processing;
   return agc.mode != AgcMode::clahe && agc.mode != AgcMode::table_max && agc.detail.gain_dn_per_netd == 0 &&
-         processing.noise_filter_sigma_px == 0 && processing.unsharp_amount == 0 && !task.link && !task.codec;
+         processing.noise_filter_sigma_px == 0 && processing.unsharp_amount == 0 && !settings.link &&
+         !settings.codec;
 }
 
 template <typename T>
@@ -114,7 +116,7 @@ ClipOutput::ClipOutput(const ClipTask& task, const Manifest& manifest, float bri
       imager_(task, manifest, brightest_w_m2_sr, std::move(temperatures)),
       video_(folder_ / "preview.mp4", manifest.frame_rate_hz, manifest.camera.width_px,
              manifest.camera.height_px),
-      annotations_(manifest, task.distortion, task.labels, folder_ / "labels.spool"),
+      annotations_(manifest, task.settings().distortion, task.settings().labels, folder_ / "labels.spool"),
       frames_jsonl_(folder_ / "frames.jsonl") {}
 
 void ClipOutput::write(int number, Frame& frame) const {
@@ -169,7 +171,7 @@ Json ClipOutput::frame_line(int number, const Frame& frame) const {
   if (pose.look_angle_deg) line["look_angle_deg"] = *pose.look_angle_deg;
   if (pose.camera_to_world) line["camera_to_world"] = *pose.camera_to_world;
   line["ffc"] = frame.pictures.shutter_closed;
-  line["agc"] = tone_record(frame.pictures.curve, task_.sensor.agc, brightest_w_m2_sr_);
+  line["agc"] = tone_record(frame.pictures.curve, task_.settings().sensor.agc, brightest_w_m2_sr_);
   line["agc"]["invertible"] = is_invertible(task_);
   if (imager_.has_codec()) line["encoded_bytes"] = frame.encoded_bytes;
   line["ir8_sha256"] = frame.ir8.pixels_sha256;
@@ -213,7 +215,7 @@ ClipResult open_output(const ClipTask& task, const Manifest& manifest, ClipScene
   const std::size_t scene = scenes.add(task);
   return {.scene = scene,
           .clip = ClipOutput(task, manifest, scenes.brightest_w_m2_sr(scene),
-                             scenes.temperatures(task.sensor.response))};
+                             scenes.temperatures(task.settings().sensor.response))};
 }
 
 Outputs open_outputs(const std::vector<ClipTask>& tasks, const Manifest& manifest, ClipScenes& scenes) {

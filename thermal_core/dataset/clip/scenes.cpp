@@ -8,7 +8,8 @@
 namespace thermal {
 
 std::size_t ClipScenes::add(const ClipTask& task) {
-  SceneSettings settings = scene_settings(task.clip.season, task.sensor, task.physics, task.distortion);
+  SceneSettings settings =
+      scene_settings(task.clip.season, task.settings().sensor, task.physics, task.settings().distortion);
   const auto found = std::find_if(scenes_.begin(), scenes_.end(),
                                   [&](const Scene& scene) { return scene.settings == settings; });
   if (found != scenes_.end()) return static_cast<std::size_t>(found - scenes_.begin());

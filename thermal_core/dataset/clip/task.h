@@ -6,10 +6,8 @@
 #include <string>
 
 #include "imaging/scene_radiance.h"
-#include "io/config/config.h"
+#include "io/config/spec.h"
 #include "io/pass_buffer.h"
-#include "labels/instances.h"
-#include "scene/camera_model.h"
 #include "scene/manifest.h"
 #include "scene/passes.h"
 
@@ -40,19 +38,16 @@ struct ClipPasses {
   std::string identity_sha256 = {};  ///< identity_of() them; empty if they are rendered for the dataset
 };
 
-/// What a dataset makes from a clip's passes: all settings for frames and labels.
+/// What a dataset makes from a clip's passes.
 struct ClipTask {
   std::string variant;  ///< start of messages about the request; empty if there is only one task
-  ClipConfig clip;
+  ClipSpec clip;
   std::uint32_t seed = 1;
-  SensorParameters sensor;
-  LensDistortion distortion;
-  LabelParameters labels;
-  std::optional<AnalogueLinkParameters> link = {};  ///< ahead of the codec; empty: none
-  std::optional<VideoCodecSettings> codec = {};     ///< that 8-bit frames pass through; empty: none
-  std::optional<PhysicsSettings> physics;           ///< empty: the published model
-  Path folder;                                      ///< to make the clip in; emptied first
-  std::string made_from_sha256 = {};                ///< for the clip's record
+  std::optional<PhysicsSettings> physics;  ///< empty: the published model
+  Path folder;                             ///< to make the clip in; emptied first
+  std::string made_from_sha256 = {};       ///< for the clip's record
+
+  [[nodiscard]] const ClipSettings& settings() const { return *clip.settings; }
 };
 
 }  // namespace thermal

@@ -19,7 +19,7 @@ namespace {
 std::unique_ptr<ClipImager> imager_of(const ClipTask& task, const Manifest& manifest, ClipScenes& scenes) {
   const std::size_t scene = scenes.add(task);
   return std::make_unique<ClipImager>(task, manifest, scenes.brightest_w_m2_sr(scene),
-                                      scenes.temperatures(task.sensor.response));
+                                      scenes.temperatures(task.settings().sensor.response));
 }
 
 /// Size of the planes that a manifest's renderer writes.
@@ -62,8 +62,8 @@ Json LiveClip::labels() const {
   for (const Instance& instance : frame_.instances) {
     const auto actor = std::ranges::find(manifest_.objects, instance.index, &ManifestObject::index);
     Json label = {{"category", actor->category}};
-    label.update(
-        label_entry(instance, *actor, manifest_.camera, task_.labels, frame_.pictures.shutter_closed));
+    label.update(label_entry(instance, *actor, manifest_.camera, task_.settings().labels,
+                             frame_.pictures.shutter_closed));
     labels.push_back(std::move(label));
   }
   return labels;
@@ -106,12 +106,12 @@ void LiveClip::check(const Passes& passes) const {
 std::unique_ptr<LiveClip> live_clip_of(Manifest manifest, const Passes& first,
                                        const ConvertOptions& options) {
   const std::vector<ClipPasses> sources = {{.manifest = manifest, .folder = "manifest"}};
-  Config config = convert_requests(options, sources).front().config;
+  const DatasetSpec spec = convert_requests(options, sources).front().config.spec;
   auto materials = std::make_shared<const MaterialLibrary>(read_materials(options.assets));
-  const KeptTerms kept(config, outline_of(config, *materials, sources, {view_planes(manifest, first)}));
+  const KeptTerms kept(spec, outline_of(spec, *materials, sources, {view_planes(manifest, first)}));
   HeatDays heat(*materials);
-  const ClipConfig& clip = config.clip(manifest.clip, "manifest: clip");
-  ClipTask task = task_of(config, clip, kept.of(settings_of(config, clip)), heat, nullptr);
+  const ClipSpec& clip = spec.clips.front();
+  ClipTask task = task_of(spec, clip, kept.of(clip), heat, nullptr);
   return std::make_unique<LiveClip>(std::move(manifest), std::move(materials), std::move(task));
 }
 

@@ -21,9 +21,9 @@ namespace {
 PlannedDataset checked_plan(const Path& plan, const Assets& assets) {
   PlannedDataset planned = open_plan(plan, assets);
   const std::string where = (plan / "config.json").string() + ": ";
-  if (planned.config.engine != Engine::embree)
+  if (planned.config.spec.engine != Engine::embree)
     throw ConfigError(where + fault("render.engine", "\"blender\"", "", "\"embree\""));
-  if (!planned.config.poses_all)
+  if (!planned.config.spec.poses_all)
     throw ConfigError(where + fault("render.posed_actors", "\"seen\"", "", "\"all\""));
   return planned;
 }
@@ -36,12 +36,9 @@ std::array<double, 16> levelled(std::array<double, 16> pose) {
   return pose;
 }
 
-Manifest manifest_for(const PlannedDataset& planned, const BakedScene& scene, const BakedTrack& track,
-                      const std::string& clip, const WorldOptions& options) {
-  const auto of_plan = std::ranges::find(planned.plan.clips, clip, &ClipPlan::id);
-  const ClipConfig& config = planned.config.clip(clip, "clip");
-  Manifest manifest =
-      manifest_of(scene, track, *of_plan, planned.config, settings_of(planned.config, config));
+Manifest manifest_for(const DatasetSpec& spec, const ClipSpec& clip, const BakedScene& scene,
+                      const BakedTrack& track, const WorldOptions& options) {
+  Manifest manifest = manifest_of(scene, track, spec, clip);
   if (options.frame_rate_hz) manifest.frame_rate_hz = *options.frame_rate_hz;
   if (options.roam) {
     ManifestFrame all_ground = manifest.frames.back();
@@ -51,17 +48,16 @@ Manifest manifest_for(const PlannedDataset& planned, const BakedScene& scene, co
   return manifest;
 }
 
-std::unique_ptr<LiveClip> clip_for(const PlannedDataset& planned, const Path& plan, const BakedScene& scene,
-                                   Manifest manifest, const Assets& assets) {
-  const Config& config = planned.config;
+std::unique_ptr<LiveClip> clip_for(const PlannedDataset& planned, const ClipSpec& clip, const Path& plan,
+                                   const BakedScene& scene, Manifest manifest, const Assets& assets) {
+  const DatasetSpec& spec = planned.config.spec;
   auto materials = std::make_shared<const MaterialLibrary>(read_materials(assets));
-  const KeptTerms kept(config, outline_of(config, planned.plan, *materials));
+  const KeptTerms kept(spec, outline_of(spec, planned.plan, *materials));
   std::shared_ptr<const GroundMaps> ground;
-  if (uses_ground_maps(plan, config))
+  if (uses_ground_maps(plan, spec))
     ground = std::make_shared<const GroundMaps>(read_ground_maps(plan, scene.ground, assets));
   HeatDays heat(*materials);
-  const ClipConfig& clip = config.clip(manifest.clip, "clip");
-  ClipTask task = task_of(config, clip, kept.of(settings_of(config, clip)), heat, std::move(ground));
+  ClipTask task = task_of(spec, clip, kept.of(clip), heat, std::move(ground));
   return std::make_unique<LiveClip>(std::move(manifest), std::move(materials), std::move(task));
 }
 
@@ -111,20 +107,20 @@ std::array<double, 16> pose_between(const std::array<double, 16>& from, const st
 World::World(const Path& plan, const std::string& clip, const Assets& assets, const WorldOptions& options)
     : World(checked_plan(plan, assets), plan, clip, assets, options) {}
 
-World::World(PlannedDataset planned, const Path& plan, const std::string& clip, const Assets& assets,
+World::World(const PlannedDataset& planned, const Path& plan, const std::string& clip, const Assets& assets,
              const WorldOptions& options)
-    : planned_(std::move(planned)),
-      scene_(read_baked_scene(plan, assets)),
-      track_(read_baked_track(plan, planned_.config.clip(clip, "clip").id, scene_, assets)),
+    : scene_(read_baked_scene(plan, assets)),
+      track_(read_baked_track(plan, planned.config.spec.clip(clip, "clip").id, scene_, assets)),
       caster_(scene_),
       moments_(scene_, track_) {
   if (options.frame_rate_hz && !(*options.frame_rate_hz > 0 && std::isfinite(*options.frame_rate_hz)))
     throw ConfigError(fault("frame_rate_hz", fmt::format("{}", *options.frame_rate_hz), "Hz", "above 0"));
-  clip_ = clip_for(planned_, plan, scene_, manifest_for(planned_, scene_, track_, clip, options), assets);
-  const Config& config = planned_.config;
+  const DatasetSpec& spec = planned.config.spec;
+  const ClipSpec& own = spec.clip(clip, "clip");
+  clip_ = clip_for(planned, own, plan, scene_, manifest_for(spec, own, scene_, track_, options), assets);
   tracer_ = std::make_unique<const CameraTracer>(caster_, clip_->manifest().camera,
-                                                 Sampling{.supersample = config.supersample,
-                                                          .adaptive = config.adaptive_sampling,
+                                                 Sampling{.supersample = spec.supersample,
+                                                          .adaptive = spec.adaptive_sampling,
                                                           .lens = clip_->manifest().lens});
   needs_ = clip_->needs();
 }

@@ -66,12 +66,11 @@ class World {
   [[nodiscard]] const ManifestFrame& frame() const noexcept { return frame_; }
 
  private:
-  World(PlannedDataset planned, const Path& plan, const std::string& clip, const Assets& assets,
+  World(const PlannedDataset& planned, const Path& plan, const std::string& clip, const Assets& assets,
         const WorldOptions& options);
   [[nodiscard]] int number_at(double time_s) const;
   [[nodiscard]] double known_time(double time_s) const;
 
-  PlannedDataset planned_;
   BakedScene scene_;
   BakedTrack track_;
   RayCaster caster_;

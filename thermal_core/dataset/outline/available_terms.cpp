@@ -49,7 +49,7 @@ bool shows_mirrors(const Manifest& manifest, const MaterialLibrary& materials) {
 }
 
 /// Checks the inputs of each term. The first missing input is reported; of several clips, that of the first.
-void add_impossible(const ClipPasses& source, const PassesView& view, const Config& config,
+void add_impossible(const ClipPasses& source, const PassesView& view, const DatasetSpec& spec,
                     const MaterialLibrary& materials, SceneOutline& outline) {
   const PassNeeds& planes = *view.planes;
   const std::string depth = planes.depth ? "" : "no depth";
@@ -59,7 +59,7 @@ void add_impossible(const ClipPasses& source, const PassesView& view, const Conf
     if (!lacking.empty())
       outline.impossible.emplace(term, fmt::format("clip {}: {}", source.manifest.clip, lacking));
   };
-  if (config.heat_balance) {
+  if (spec.heat_balance) {
     const std::string maps = view.has_ground_maps ? "" : "no maps of the ground";
     add("place", !maps.empty() ? maps : depth.empty() ? poses : depth);
     add("facing", normals.empty() ? poses : normals);
@@ -68,7 +68,7 @@ void add_impossible(const ClipPasses& source, const PassesView& view, const Conf
   add("sky", normals.empty() ? poses : normals);
   add("angular", normals.empty() ? poses : normals);
   add("path", depth);
-  if (config.sensor.time_constant_s > 0) add("smear", depth.empty() ? poses : depth);
+  if (spec.settings->sensor.time_constant_s > 0) add("smear", depth.empty() ? poses : depth);
   if (shows_mirrors(source.manifest, materials))
     add("mirror", planes.mirrored ? poses : "no mirrored planes");
 }
@@ -106,7 +106,7 @@ std::vector<SceneOutline::ViewDirection> directions_in(const Plane<float>& depth
 }
 
 /// Adds the mean height and angle over the frames that state their height, as for planned clips.
-void add_stated_height(const Manifest& manifest, const ClipConfig& clip, ViewingConditions& conditions) {
+void add_stated_height(const Manifest& manifest, const ClipSpec& clip, ViewingConditions& conditions) {
   constexpr double kStraightDown = 90;
   double sum_agl_m = 0;
   double sum_look_deg = 0;
@@ -212,24 +212,23 @@ PassesView view_planes(const Manifest& manifest, const Passes& first) {
   return view;
 }
 
-SceneOutline outline_of(const Config& config, const MaterialLibrary& materials,
+SceneOutline outline_of(const DatasetSpec& spec, const MaterialLibrary& materials,
                         const std::vector<ClipPasses>& sources, const std::vector<PassesView>& views) {
-  SceneOutline outline = empty_outline(config);
-  ViewingConditions conditions(config);
+  SceneOutline outline = empty_outline(spec);
+  ViewingConditions conditions(spec);
   std::set<std::string> ground;
   std::set<std::string> actors;
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const Manifest& manifest = sources[i].manifest;
     for (const ManifestObject& object : manifest.objects)
       (object.object_class == ObjectClass::actor ? actors : ground).insert(object.material);
-    const ClipConfig& clip = config.clip(manifest.clip, "manifest: clip");
-    const SensorParameters& sensor = settings_of(config, clip).sensor;
+    const ClipSpec& clip = spec.clips[i];
     add_stated_height(manifest, clip, conditions);
-    if (!config.physical) continue;
-    if (views[i].planes) add_impossible(sources[i], views[i], config, materials, outline);
+    if (!spec.physical) continue;
+    if (views[i].planes) add_impossible(sources[i], views[i], spec, materials, outline);
     conditions.add(clip, views[i].view_directions);
-    outline.smear_px = std::max(outline.smear_px,
-                                motion_px_per_s(manifest, views[i].view_directions) * sensor.time_constant_s);
+    outline.smear_px = std::max(outline.smear_px, motion_px_per_s(manifest, views[i].view_directions) *
+                                                      clip.settings->sensor.time_constant_s);
   }
   add_ground(ground, materials, outline);
   add_actors(actors, materials, outline);

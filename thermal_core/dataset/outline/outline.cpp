@@ -34,20 +34,22 @@ std::vector<SceneOutline::ViewDirection> directions_from(double height_m, double
   return view_directions;
 }
 
-double least_netd_k(const Config& config) {
-  double netd_k = config.clips.empty() ? config.netd_k : HUGE_VAL;
-  for (const ClipConfig& clip : config.clips) netd_k = std::min(netd_k, settings_of(config, clip).netd_k);
+double least_netd_k(const DatasetSpec& spec) {
+  double netd_k = spec.clips.empty() ? spec.settings->netd_k : HUGE_VAL;
+  for (const ClipSpec& clip : spec.clips) netd_k = std::min(netd_k, clip.settings->netd_k);
   return netd_k;
 }
 
 }  // namespace
 
-SceneOutline empty_outline(const Config& config) {
-  SceneOutline outline = {
-      .covers = {}, .conditions = {}, .response = config.sensor.response, .netd_k = least_netd_k(config)};
-  if (config.heat_balance) return outline;
-  const std::pair<std::string, TermChoice> of_heat[] = {{"place", config.terms.place},
-                                                        {"facing", config.terms.facing}};
+SceneOutline empty_outline(const DatasetSpec& spec) {
+  SceneOutline outline = {.covers = {},
+                          .conditions = {},
+                          .response = spec.settings->sensor.response,
+                          .netd_k = least_netd_k(spec)};
+  if (spec.heat_balance) return outline;
+  const std::pair<std::string, TermChoice> of_heat[] = {{"place", spec.settings->terms.place},
+                                                        {"facing", spec.settings->terms.facing}};
   for (const auto& [term, choice] : of_heat) {
     if (choice == TermChoice::on) outline.impossible.emplace(term, "temperatures are those of Table 1");
   }
@@ -62,13 +64,12 @@ void add_actors(const std::set<std::string>& names, const MaterialLibrary& mater
   }
 }
 
-ViewingConditions::Conditions& ViewingConditions::conditions_of(const ClipConfig& clip) {
-  const ClipSettings& settings = settings_of(config_, clip);
-  const auto [place, is_new] = places_.try_emplace({clip.season, &settings}, nights_.size());
+ViewingConditions::Conditions& ViewingConditions::conditions_of(const ClipSpec& clip) {
+  const auto [place, is_new] = places_.try_emplace({clip.season, clip.settings.get()}, nights_.size());
   if (!is_new) return nights_[place->second];
   Conditions viewing = {.season = clip.season,
-                        .weather = weather_at_start(config_, clip),
-                        .response = settings.sensor.response};
+                        .weather = clip.weather_at(0, spec_.heat_balance),  // the same for clips under one
+                        .response = clip.settings->sensor.response};
   const auto found = std::ranges::find_if(nights_, [&viewing](const Conditions& one) {
     return one.weather == viewing.weather && one.response == viewing.response;
   });
@@ -77,7 +78,7 @@ ViewingConditions::Conditions& ViewingConditions::conditions_of(const ClipConfig
   return nights_[place->second];
 }
 
-void ViewingConditions::add(const ClipConfig& clip, double mean_height_m, double mean_look_angle_deg,
+void ViewingConditions::add(const ClipSpec& clip, double mean_height_m, double mean_look_angle_deg,
                             const CameraIntrinsics& camera) {
   const double height_m = std::max(1.0, std::round(mean_height_m));
   const double look_angle_deg = std::round(mean_look_angle_deg);
@@ -88,7 +89,7 @@ void ViewingConditions::add(const ClipConfig& clip, double mean_height_m, double
   add(clip, directions_from(height_m, angle, camera));
 }
 
-void ViewingConditions::add(const ClipConfig& clip,
+void ViewingConditions::add(const ClipSpec& clip,
                             const std::vector<SceneOutline::ViewDirection>& view_directions) {
   auto& all = conditions_of(clip).view_directions;
   all.insert(all.end(), view_directions.begin(), view_directions.end());
@@ -102,55 +103,49 @@ std::vector<SceneOutline::Conditions> ViewingConditions::list(const SceneOutline
       if (one.season == season)
         conditions.push_back(
             {.weather = one.weather, .response = one.response, .view_directions = one.view_directions});
-  if (!config_.heat_balance) return conditions;
+  if (!spec_.heat_balance) return conditions;
   parallel_for(conditions.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) heat_conditions(outline.covers, library, conditions[k]);
   });
   return conditions;
 }
 
-KeptTerms::KeptTerms(const Config& config, const SceneOutline& outline) : choices_{config.terms} {
-  for (const ClipConfig& clip : config.clips) {
-    const TermChoices& own = settings_of(config, clip).terms;
+KeptTerms::KeptTerms(const DatasetSpec& spec, const SceneOutline& outline) : choices_{spec.settings->terms} {
+  for (const ClipSpec& clip : spec.clips) {
+    const TermChoices& own = clip.settings->terms;
     if (std::ranges::find(choices_, own) == choices_.end()) choices_.push_back(own);
   }
   budgets_ = weigh_terms(outline, choices_);
 }
 
-const Terms& KeptTerms::of(const ClipSettings& settings) const {
-  const auto found = std::ranges::find(choices_, settings.terms);
+const Terms& KeptTerms::of(const ClipSpec& clip) const {
+  const auto found = std::ranges::find(choices_, clip.settings->terms);
   return budgets_.at(static_cast<std::size_t>(found - choices_.begin())).kept;
 }
 
 namespace {
 
 /// Empty for the published model.
-std::optional<PhysicsSettings> physics_of(const Config& config, const ClipConfig& clip, const Terms& terms,
+std::optional<PhysicsSettings> physics_of(const DatasetSpec& spec, const ClipSpec& clip, const Terms& terms,
                                           HeatDays& heat, std::shared_ptr<const GroundMaps> ground) {
-  if (!config.physical) return std::nullopt;
+  if (!spec.physical) return std::nullopt;
   PhysicsSettings physics = {.terms = terms,
-                             .weather = weather_of(config, clip),
-                             .response = settings_of(config, clip).sensor.response,
-                             .seed = config.seed};
-  if (config.heat_balance)
+                             .weather = clip.weather_at(clip.middle_s(), spec.heat_balance),
+                             .response = clip.settings->sensor.response,
+                             .seed = spec.seed};
+  if (spec.heat_balance)
     physics.heat = HeatSettings{.day = heat.of(physics.weather.day), .ground = std::move(ground)};
   return physics;
 }
 
 }  // namespace
 
-ClipTask task_of(const Config& config, const ClipConfig& clip, const Terms& terms, HeatDays& heat,
+ClipTask task_of(const DatasetSpec& spec, const ClipSpec& clip, const Terms& terms, HeatDays& heat,
                  std::shared_ptr<const GroundMaps> ground) {
-  const ClipSettings& settings = settings_of(config, clip);
   return {.variant = "",
           .clip = clip,
-          .seed = config.seed,
-          .sensor = settings.sensor,
-          .distortion = settings.distortion,
-          .labels = settings.labels,
-          .link = settings.link,
-          .codec = settings.codec,
-          .physics = physics_of(config, clip, terms, heat, std::move(ground)),
+          .seed = spec.seed,
+          .physics = physics_of(spec, clip, terms, heat, std::move(ground)),
           .folder = {}};
 }
 
@@ -167,39 +162,23 @@ Json to_json(const Budget& budget) {
   return {{"terms", std::move(terms)}, {"dropped_mk", 1e3 * budget.dropped_k}};
 }
 
-namespace {
-
-constexpr double kWalkingMPerS = 1.5;  // of actors
-
-/// Of a config's clips, those cut from its flights included: config files state them, or leave them at 12 m/s.
-std::map<std::string, double> speeds_of_clips_m_s(const Config& config) {
-  constexpr double kUsualMPerS = 12;
-  std::map<std::string, double> speeds_m_s;
-  for (const Json& clip : config.resolved.at("clips"))
-    speeds_m_s[clip.at("id")] = clip.value(Json::json_pointer("/flight/speed_m_s"), kUsualMPerS);
-  return speeds_m_s;
-}
-
-}  // namespace
-
-SceneOutline outline_of(const Config& config, const DatasetPlan& plan, const MaterialLibrary& materials) {
-  SceneOutline outline = empty_outline(config);
+SceneOutline outline_of(const DatasetSpec& spec, const DatasetPlan& plan, const MaterialLibrary& materials) {
+  constexpr double kWalkingMPerS = 1.5;  // of actors
+  SceneOutline outline = empty_outline(spec);
   for (const auto& [name, share] : plan.cover_shares)
     outline.covers.push_back({.material = &materials.find(name, "plan: covers"), .share = share});
-  if (config.engine != Engine::embree &&
+  if (spec.engine != Engine::embree &&
       std::ranges::any_of(outline.covers, [](const auto& cover) { return cover.material->mirrors(); }))
     outline.impossible.emplace("mirror", "the engine blender does not trace what water mirrors");
   add_actors({plan.actor_materials.begin(), plan.actor_materials.end()}, materials, outline);
-  ViewingConditions conditions(config);
-  std::map<std::string, const ClipConfig*> configs;
-  for (const ClipConfig& clip : config.clips) configs[clip.id] = &clip;
-  const std::map<std::string, double> speeds_m_s = speeds_of_clips_m_s(config);
-  for (const ClipPlan& clip : plan.clips) {
-    const ClipConfig& own = *configs.at(clip.id);
-    const ClipSettings& settings = settings_of(config, own);
-    conditions.add(own, clip.mean_agl_m, clip.mean_look_angle_deg, settings.camera);
+  ViewingConditions conditions(spec);
+  for (std::size_t k = 0; k < plan.clips.size(); ++k) {
+    const ClipPlan& planned = plan.clips[k];
+    const ClipSpec& clip = spec.clips[k];
+    const ClipSettings& settings = *clip.settings;
+    conditions.add(clip, planned.mean_agl_m, planned.mean_look_angle_deg, settings.camera);
     const double px_per_s =
-        settings.camera.fx_px * (speeds_m_s.at(clip.id) + kWalkingMPerS) / std::max(1.0, clip.mean_agl_m);
+        settings.camera.fx_px * (clip.speed_m_s + kWalkingMPerS) / std::max(1.0, planned.mean_agl_m);
     outline.smear_px = std::max(outline.smear_px, px_per_s * settings.sensor.time_constant_s);
   }
   outline.conditions = conditions.list(outline, materials);

@@ -13,15 +13,15 @@
 #include "dataset/plan/plan_store.h"
 #include "imaging/budget.h"
 #include "imaging/scene_radiance.h"
-#include "io/config/config.h"
+#include "io/config/spec.h"
 #include "scene/manifest.h"
 
 namespace thermal {
 
 inline constexpr double kActorShare = 0.03;  ///< weight in the budget: a choice, not a property of the scene
 
-/// An empty outline with the config's sensors; the least NETD of its clips is used.
-[[nodiscard]] SceneOutline empty_outline(const Config& config);
+/// An empty outline with a dataset's sensors; the least NETD of its clips is used.
+[[nodiscard]] SceneOutline empty_outline(const DatasetSpec& spec);
 
 /// Adds the materials of actors, which share kActorShare evenly.
 void add_actors(const std::set<std::string>& names, const MaterialLibrary& materials, SceneOutline& outline);
@@ -29,15 +29,15 @@ void add_actors(const std::set<std::string>& names, const MaterialLibrary& mater
 /// Collects the viewing directions of cameras, by the weather and spectral response of clips.
 class ViewingConditions {
  public:
-  explicit ViewingConditions(const Config& config) : config_(config) {}
+  explicit ViewingConditions(const DatasetSpec& spec) : spec_(spec) {}
 
   /// A clip's camera above level ground, `look_angle_deg` below the horizon: means over the clip, rounded to whole
   /// metres, at least one, and degrees.
-  void add(const ClipConfig& clip, double mean_height_m, double mean_look_angle_deg,
+  void add(const ClipSpec& clip, double mean_height_m, double mean_look_angle_deg,
            const CameraIntrinsics& camera);
 
   /// Other known viewing directions.
-  void add(const ClipConfig& clip, const std::vector<SceneOutline::ViewDirection>& view_directions);
+  void add(const ClipSpec& clip, const std::vector<SceneOutline::ViewDirection>& view_directions);
 
   /// The collected conditions, winter first, with the temperatures of an outline's covers; computed on all threads.
   [[nodiscard]] std::vector<SceneOutline::Conditions> list(const SceneOutline& outline,
@@ -51,17 +51,17 @@ class ViewingConditions {
     std::vector<SceneOutline::ViewDirection> view_directions = {};
     std::set<std::tuple<double, double, double, double>> seen = {};  ///< height, angle, focal length
   };
-  Conditions& conditions_of(const ClipConfig& clip);
+  Conditions& conditions_of(const ClipSpec& clip);
 
-  const Config& config_;
+  const DatasetSpec& spec_;
   std::map<std::pair<Season, const ClipSettings*>, std::size_t> places_;
   std::vector<Conditions> nights_;
 };
 
 /// Outline of a planned dataset: its ground, plants and species, and the viewing directions of its clips, by metre and
-/// degree. `config` has the plan's clips (with_flights_cut). Actors together have a weight of 3 %. `materials` must
+/// degree. `spec` has the plan's clips (with_flights_cut). Actors together have a weight of 3 %. `materials` must
 /// outlive the result.
-[[nodiscard]] SceneOutline outline_of(const Config& config, const DatasetPlan& plan,
+[[nodiscard]] SceneOutline outline_of(const DatasetSpec& spec, const DatasetPlan& plan,
                                       const MaterialLibrary& materials);
 
 /// Contents of a clip's files, besides its manifest.
@@ -80,20 +80,20 @@ struct PassesView {
 [[nodiscard]] PassesView view_planes(const Manifest& manifest, const Passes& first);
 
 /// The same for passes without a config of their scene: from their manifests' materials, heights and angles. With the
-/// physical model, terms that need planes or poses missing from some of `views` are impossible. `materials` must
-/// outlive the result.
-[[nodiscard]] SceneOutline outline_of(const Config& config, const MaterialLibrary& materials,
+/// physical model, terms that need planes or poses missing from some of `views` are impossible. A source is that of the
+/// clip in its place. `materials` must outlive the result.
+[[nodiscard]] SceneOutline outline_of(const DatasetSpec& spec, const MaterialLibrary& materials,
                                       const std::vector<ClipPasses>& sources,
                                       const std::vector<PassesView>& views);
 
 /// The terms that each clip of a dataset keeps.
 class KeptTerms {
  public:
-  KeptTerms(const Config& config, const SceneOutline& outline);
+  KeptTerms(const DatasetSpec& spec, const SceneOutline& outline);
 
   /// For clips without choices of their own.
   [[nodiscard]] const Budget& budget() const { return budgets_.front(); }
-  [[nodiscard]] const Terms& of(const ClipSettings& settings) const;
+  [[nodiscard]] const Terms& of(const ClipSpec& clip) const;
 
  private:
   std::vector<TermChoices> choices_;  ///< the dataset's, then those of clips that differ
@@ -101,7 +101,7 @@ class KeptTerms {
 };
 
 /// The task of making a clip with these terms, except for its folder. `ground`: see HeatSettings.
-[[nodiscard]] ClipTask task_of(const Config& config, const ClipConfig& clip, const Terms& terms,
+[[nodiscard]] ClipTask task_of(const DatasetSpec& spec, const ClipSpec& clip, const Terms& terms,
                                HeatDays& heat, std::shared_ptr<const GroundMaps> ground);
 
 /// The entry of dataset.json on terms: the budget of a physical dataset, emission alone for the published model.

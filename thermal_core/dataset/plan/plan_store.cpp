@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/relative_name.h"
+#include "io/config/sections.h"
 #include "io/json/camera.h"
 #include "io/json/schema.h"
 #include "io/system/sha256.h"
@@ -17,16 +18,14 @@
 namespace thermal {
 namespace {
 
-/// Clips or flights of a config as the planner sees them, with the cameras that differ from the dataset's.
-Json planned_entries(const Json& flown, const std::map<std::string, SharedSettings>& own,
-                     const CameraIntrinsics& usual) {
-  Json entries = flown;
-  for (Json& entry : entries) {
-    (void)take_sections(entry);
-    for (const char* key : {"season", "drawn"}) entry.erase(key);
-    const auto found = own.find(entry.at("id").get<std::string>());
-    if (found != own.end() && found->second->camera != usual)
-      entry["camera"] = to_json(found->second->camera);
+/// Clips or flights of a document as the planner sees them, with the cameras that differ from the dataset's.
+template <typename Spec>
+Json planned_entries(Json entries, const std::vector<Spec>& specs, const CameraIntrinsics& usual) {
+  for (std::size_t k = 0; k < specs.size(); ++k) {
+    (void)take_sections(entries[k]);
+    for (const char* key : {"season", "drawn"}) entries[k].erase(key);
+    const CameraIntrinsics& camera = specs[k].settings->camera;
+    if (camera != usual) entries[k]["camera"] = to_json(camera);
   }
   return entries;
 }
@@ -44,23 +43,15 @@ ClipPlan clip_of(const Json& json) {
           .mean_look_angle_deg = json.at("mean_look_angle_deg")};
 }
 
-/// A clip cut from a flight, in the form of a config.
-Json to_document(const ClipPlan& clip, const Json& flight) {
-  return cut_from(flight, {{"id", clip.id},
-                           {"start_s", clip.start_s},
-                           {"frames", clip.frames},
-                           {"frame_rate_hz", clip.frame_rate_hz}});
-}
-
 /// Whether a plan's clips are those of a config.
 class ClipCheck {
  public:
-  ClipCheck(const Config& config, const std::string& name) : config_(config), name_(name) {}
+  ClipCheck(const DatasetSpec& spec, const std::string& name) : spec_(spec), name_(name) {}
 
   void check(const std::vector<ClipPlan>& clips) const {
     std::set<std::string> ids;
     std::int64_t frames = 0;
-    for (std::size_t k = 0; k < std::max(clips.size(), config_.clips.size()); ++k) {
+    for (std::size_t k = 0; k < std::max(clips.size(), spec_.clips.size()); ++k) {
       check(k < clips.size() ? clips[k] : ClipPlan(), k);
       if (!ids.insert(clips[k].id).second) fail(k, "id", quoted(clips[k].id), "each id once");
       frames += clips[k].frames;
@@ -79,12 +70,12 @@ class ClipCheck {
   }
 
   void check(const ClipPlan& clip, std::size_t k) const {
-    if (k >= config_.clips.size()) {
-      if (std::ranges::find(config_.flights, clip.of_flight) == config_.flights.end())
+    if (k >= spec_.clips.size()) {
+      if (spec_.flight(clip.of_flight) == nullptr)
         fail(k, "of_flight", quoted(clip.of_flight), "a flight of the config");
       return;
     }
-    const ClipConfig& own = config_.clips[k];
+    const ClipSpec& own = spec_.clips[k];
     if (clip.id != own.id) fail(k, "id", quoted(clip.id), quoted(own.id) + ", as in the config");
     if (!clip.of_flight.empty())
       fail(k, "of_flight", quoted(clip.of_flight), "\"\", for a clip of the config");
@@ -94,25 +85,26 @@ class ClipCheck {
 
   static std::string quoted(const std::string& text) { return brief(Json(text)); }
 
-  const Config& config_;
+  const DatasetSpec& spec_;
   const std::string& name_;
 };
 
 }  // namespace
 
-Json planned_part(const Config& config) {
-  const Json& all = config.resolved;
+Json planned_part(const ResolvedConfig& config) {
+  const Json& all = config.document;
+  const DatasetSpec& spec = config.spec;
   Json scene = all.at("scene");
   scene.erase("temperatures");
-  Json render = {{"view_margin_px", config.view_margin_px},
+  Json render = {{"view_margin_px", spec.view_margin_px},
                  {"posed_actors", all.at("render").at("posed_actors")}};
   return {{"name", all.at("name")},
           {"seed", all.at("seed")},
           {"scene", std::move(scene)},
-          {"camera", to_json(config.camera)},
+          {"camera", to_json(spec.settings->camera)},
           {"render", std::move(render)},
-          {"clips", planned_entries(all.at("clips"), config.own_of_clips, config.camera)},
-          {"flights", planned_entries(all.at("flights"), config.own_of_flights, config.camera)}};
+          {"clips", planned_entries(all.at("clips"), spec.clips, spec.settings->camera)},
+          {"flights", planned_entries(all.at("flights"), spec.flights, spec.settings->camera)}};
 }
 
 DatasetPlan plan_of(const Json& document, const std::string& name, const Assets& assets) {
@@ -129,14 +121,18 @@ DatasetPlan plan_of(const Json& document, const std::string& name, const Assets&
   return plan;
 }
 
-Config with_flights_cut(Config config, const DatasetPlan& plan, const std::string& name) {
-  ClipCheck(config, name).check(plan.clips);
-  std::map<std::string, const Json*> flights;
-  for (const Json& flight : config.resolved.at("flights")) flights[flight.at("id")] = &flight;
-  Json cut = Json::array();
-  for (const ClipPlan& clip : plan.clips)
-    if (!clip.of_flight.empty()) cut.push_back(to_document(clip, *flights.at(clip.of_flight)));
-  return with_clips(std::move(config), cut);
+ResolvedConfig with_flights_cut(ResolvedConfig config, const DatasetPlan& plan, const std::string& name) {
+  ClipCheck(config.spec, name).check(plan.clips);
+  std::vector<ClipSpec> clips = config.spec.clips;
+  for (std::size_t k = clips.size(); k < plan.clips.size(); ++k) {
+    const ClipPlan& clip = plan.clips[k];
+    clips.push_back(config.spec.flight(clip.of_flight)
+                        ->cut({.id = clip.id,
+                               .frames = clip.frames,
+                               .frame_rate_hz = clip.frame_rate_hz,
+                               .start_s = clip.start_s}));
+  }
+  return with_clips(std::move(config), std::move(clips));
 }
 
 namespace {

@@ -39,7 +39,7 @@ struct DatasetPlan {
 inline constexpr int kPlanVersion = 1;
 
 /// The part of a config that its plan depends on; with another sensor, weather or season, a plan is the same.
-[[nodiscard]] Json planned_part(const Config& config);
+[[nodiscard]] Json planned_part(const ResolvedConfig& config);
 
 /// Reads a plan. DataError with `name` if it is damaged or of another version.
 [[nodiscard]] DatasetPlan plan_of(const Json& document, const std::string& name, const Assets& assets);
@@ -47,7 +47,8 @@ inline constexpr int kPlanVersion = 1;
 /// The same config with its flights cut into the clips of its plan, which follow its own. DataError with `name`, the
 /// plan's, unless the plan has the config's own clips, then clips of its flights, each id once, and no more frames than
 /// an int counts.
-[[nodiscard]] Config with_flights_cut(Config config, const DatasetPlan& plan, const std::string& name);
+[[nodiscard]] ResolvedConfig with_flights_cut(ResolvedConfig config, const DatasetPlan& plan,
+                                              const std::string& name);
 
 /// Writes checksums.json, with the SHA-256 of all other files in a plan's folder: a plan that was damaged, or mixed with
 /// another, would make other frames without any sign of it.

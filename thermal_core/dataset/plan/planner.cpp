@@ -57,12 +57,13 @@ void show_event(const std::string& line, const PlanOptions& options) {
 }
 
 /// Runs the script with additional arguments, and returns what it prints.
-std::string run_planning(const Config& config, const std::string& name, const PlanOptions& options,
+std::string run_planning(const ResolvedConfig& config, const std::string& name, const PlanOptions& options,
                          const std::vector<std::string>& arguments) {
   const Path python = find_python();
   if (python.empty()) throw IoError("no python3 on PATH; install it (apt-get install python3-numpy)");
+  const Json planned = planned_part(config);
   try {
-    check_asset_files(planned_part(config).at("scene"), options.assets);
+    check_asset_files(planned.at("scene"), options.assets);
   } catch (const ConfigError& fault) {
     throw_faults({fault.what()}, name);
   }
@@ -77,7 +78,7 @@ std::string run_planning(const Config& config, const std::string& name, const Pl
                                       "--events-fd",
                                       std::to_string(ChildProcess::kEventDescriptor)};
   command.insert(command.end(), arguments.begin(), arguments.end());
-  const Output output = run_program(command, to_text(planned_part(config)),
+  const Output output = run_program(command, to_text(planned),
                                     [&options](const std::string& line) { show_event(line, options); });
   constexpr int kConfigFault = 2;
   if (output.status.signal == 0 && output.status.code == kConfigFault)
@@ -106,7 +107,7 @@ bool is_unchanged(const std::string& file, const std::string& sha256, const Asse
   }
 }
 
-bool is_made_from(const DatasetPlan& plan, const Config& config, const Assets& assets) {
+bool is_made_from(const DatasetPlan& plan, const ResolvedConfig& config, const Assets& assets) {
   return plan.config == planned_part(config) && std::ranges::all_of(plan.files, [&assets](const auto& file) {
            return is_unchanged(file.first, file.second, assets);
          });
@@ -114,7 +115,7 @@ bool is_made_from(const DatasetPlan& plan, const Config& config, const Assets& a
 
 /// The plan in a folder, unless it is of another config, was made from other files, or is damaged. Its own files, which
 /// may be large, are read last.
-std::optional<DatasetPlan> current_plan(const Path& folder, const Config& config,
+std::optional<DatasetPlan> current_plan(const Path& folder, const ResolvedConfig& config,
                                         const PlanOptions& options) {
   std::optional<DatasetPlan> plan = plan_in(folder, options.assets);
   const bool has_pictures = !options.preview || std::filesystem::exists(folder / "preview");
@@ -132,17 +133,17 @@ std::vector<std::string> baking_arguments(const Path& part, const Path& earlier,
 }
 
 /// Previews need no maps.
-bool has_its_maps(const Path& folder, const Config& config, const PlanOptions& options) {
-  return options.preview || has_needed_ground_maps(folder, config, options.assets);
+bool has_its_maps(const Path& folder, const DatasetSpec& spec, const PlanOptions& options) {
+  return options.preview || has_needed_ground_maps(folder, spec, options.assets);
 }
 
 /// Adds the maps that a plan's folder lacks, through `part`, and their checksums. A plan that is killed in between does
 /// not agree with its checksums, and is made again.
-void complete_maps(const Path& folder, const Path& part, const Config& config, const DatasetPlan& plan,
+void complete_maps(const Path& folder, const Path& part, const DatasetSpec& spec, const DatasetPlan& plan,
                    const PlanOptions& options) {
-  if (has_its_maps(folder, config, options)) return;
+  if (has_its_maps(folder, spec, options)) return;
   with_threads(options.threads,
-               [&] { add_ground_maps(folder, part, config, plan, options.assets, options.show_maps); });
+               [&] { add_ground_maps(folder, part, spec, plan, options.assets, options.show_maps); });
   write_checksums(folder);
 }
 
@@ -155,7 +156,7 @@ Path find_python() {
   return system.empty() ? find_program("python3") : system;
 }
 
-DatasetPlan plan_dataset(const Config& config, const std::string& name, const PlanOptions& options) {
+DatasetPlan plan_dataset(const ResolvedConfig& config, const std::string& name, const PlanOptions& options) {
   constexpr const char* kScript = "plan_scene.py";
   return plan_of(parse_json(run_planning(config, name, options, {}), kScript), kScript, options.assets);
 }
@@ -167,19 +168,19 @@ Path unfinished_plan(const Path& folder) {
 
 namespace {
 
-DatasetPlan plan_again(const Path& folder, const Config& config, const std::string& name,
+DatasetPlan plan_again(const Path& folder, const ResolvedConfig& config, const std::string& name,
                        const PlanOptions& options,
                        const std::function<void(const DatasetPlan&)>& may_replace) {
   const Path part = unfinished_plan(folder);
   const LockedFolder locked(part);
   if (auto plan = current_plan(folder, config, options)) {  // another run has made it, or it lacks maps
-    complete_maps(folder, part, config, *plan, options);
+    complete_maps(folder, part, config.spec, *plan, options);
     return *std::move(plan);
   }
   (void)run_planning(config, name, options, baking_arguments(part, folder, options));
   DatasetPlan plan = plan_of(read_json(part / "plan.json"), (part / "plan.json").string(), options.assets);
   if (may_replace) may_replace(plan);
-  complete_maps(part, part, config, plan, options);
+  complete_maps(part, part, config.spec, plan, options);
   write_checksums(part);
   replace_folder(part, folder);
   return plan;
@@ -187,11 +188,11 @@ DatasetPlan plan_again(const Path& folder, const Config& config, const std::stri
 
 }  // namespace
 
-DatasetPlan plan_into(const Path& folder, const Config& config, const std::string& name,
+DatasetPlan plan_into(const Path& folder, const ResolvedConfig& config, const std::string& name,
                       const PlanOptions& options,
                       const std::function<void(const DatasetPlan&)>& may_replace) {
   std::optional<DatasetPlan> plan = current_plan(folder, config, options);
-  if (!plan || !has_its_maps(folder, config, options))
+  if (!plan || !has_its_maps(folder, config.spec, options))
     plan = plan_again(folder, config, name, options, may_replace);
   const std::optional<LeftOver> left_over = sweep_unless_locked(unfinished_plan(folder));
   if (left_over && options.left_over) options.left_over(*left_over);
@@ -215,18 +216,18 @@ std::vector<SunPath> paths_in(const Path& folder, const Assets& assets) {
 
 }  // namespace
 
-bool needs_ground_maps(const Config& config) { return config.physical && config.heat_balance; }
+bool needs_ground_maps(const DatasetSpec& spec) { return spec.physical && spec.heat_balance; }
 
-std::vector<SunPath> sun_paths(const Config& config) {
+std::vector<SunPath> sun_paths(const DatasetSpec& spec) {
   std::vector<SunPath> paths;
-  for (const FlownWeather& flown : flown_weather(config)) add_once(flown.weather.day.sun, paths);
+  for (const FlownWeather& flown : flown_weather(spec)) add_once(flown.weather.day.sun, paths);
   return paths;
 }
 
-bool has_needed_ground_maps(const Path& folder, const Config& config, const Assets& assets) {
-  if (!needs_ground_maps(config)) return true;
+bool has_needed_ground_maps(const Path& folder, const DatasetSpec& spec, const Assets& assets) {
+  if (!needs_ground_maps(spec)) return true;
   const std::vector<SunPath> known = paths_in(folder, assets);
-  return std::ranges::all_of(sun_paths(config),
+  return std::ranges::all_of(sun_paths(spec),
                              [&known](const SunPath& path) { return std::ranges::count(known, path) > 0; });
 }
 
@@ -244,27 +245,28 @@ std::vector<GroundView> ground_views(const Path& folder, const DatasetPlan& plan
   return views;
 }
 
-bool uses_ground_maps(const Path& folder, const Config& config) {
-  return needs_ground_maps(config) && has_ground_maps(folder);
+bool uses_ground_maps(const Path& folder, const DatasetSpec& spec) {
+  return needs_ground_maps(spec) && has_ground_maps(folder);
 }
 
-std::shared_ptr<const GroundMaps> read_needed_ground_maps(const Path& folder, const Config& config,
+std::shared_ptr<const GroundMaps> read_needed_ground_maps(const Path& folder, const DatasetSpec& spec,
                                                           const Assets& assets) {
-  if (!uses_ground_maps(folder, config)) return nullptr;
+  if (!uses_ground_maps(folder, spec)) return nullptr;
   const BakedScene scene = read_baked_scene(folder, assets);
   return std::make_shared<const GroundMaps>(read_ground_maps(folder, scene.ground, assets));
 }
 
-void add_ground_maps(const Path& folder, const Path& scratch, const Config& config, const DatasetPlan& plan,
-                     const Assets& assets, const std::function<void(const Progress&)>& show) {
+void add_ground_maps(const Path& folder, const Path& scratch, const DatasetSpec& spec,
+                     const DatasetPlan& plan, const Assets& assets,
+                     const std::function<void(const Progress&)>& show) {
   std::vector<SunDay> days;
-  for (const SunPath& path : sun_paths(config)) days.push_back({.path = path, .sun = sun_hours(path)});
+  for (const SunPath& path : sun_paths(spec)) days.push_back({.path = path, .sun = sun_hours(path)});
   const auto show_cells = [&show](int done, int total) {
     if (show) show({.clip = "ground maps", .done = done, .total = total});
   };
   const BakedScene scene = read_baked_scene(folder, assets);
   std::optional<std::vector<GroundView>> views;
-  if (!config.poses_all) views = ground_views(folder, plan, scene, assets);
+  if (!spec.poses_all) views = ground_views(folder, plan, scene, assets);
   write_ground_maps(make_ground_maps(scene, days, views, show_cells), folder, scratch);
 }
 
@@ -284,7 +286,7 @@ bool has_text(const Path& file, const std::string& text) {
 }
 
 /// A config of veldt plan's own: what is wrong with it is a fault of the file.
-Config read_resolved(const Path& file, const Assets& assets) {
+ResolvedConfig read_resolved(const Path& file, const Assets& assets) {
   try {
     return resolve_config(read_json(file), file.string(), assets);
   } catch (const ConfigError& fault) {
@@ -294,9 +296,9 @@ Config read_resolved(const Path& file, const Assets& assets) {
 
 }  // namespace
 
-PlannedDataset plan_with_config(const Path& folder, const Config& config, const std::string& name,
+PlannedDataset plan_with_config(const Path& folder, const ResolvedConfig& config, const std::string& name,
                                 const PlanOptions& options) {
-  const std::string text = to_text(config.resolved);
+  const std::string text = to_text(config.document);
   DatasetPlan plan = plan_into(folder, config, name, options, [&](const DatasetPlan&) {
     write_file_atomically(config_in(unfinished_plan(folder)), text);
   });
@@ -304,7 +306,7 @@ PlannedDataset plan_with_config(const Path& folder, const Config& config, const 
     write_file_atomically(config_in(folder), text);
     write_checksums(folder);
   }
-  Config cut = with_flights_cut(config, plan, (folder / "plan.json").string());
+  ResolvedConfig cut = with_flights_cut(config, plan, (folder / "plan.json").string());
   return {.config = std::move(cut), .plan = std::move(plan)};
 }
 
@@ -313,8 +315,7 @@ PlannedDataset open_plan(const Path& folder, const Assets& assets) {
   check_files(folder, {"plan.json", config_in(folder).filename().string()});
   const Path file = folder / "plan.json";
   DatasetPlan plan = plan_of(read_json(file), file.string(), assets);
-  const Config config = read_resolved(config_in(folder), assets);
-  Config cut = with_flights_cut(config, plan, file.string());
+  ResolvedConfig cut = with_flights_cut(read_resolved(config_in(folder), assets), plan, file.string());
   return {.config = std::move(cut), .plan = std::move(plan)};
 }
 
@@ -335,8 +336,9 @@ DatasetPlan in_turn(const Path& out, const std::function<DatasetPlan()>& plan) {
 }
 
 /// `check` compares the folder's own config with the planned one.
-DatasetPlan plan_for(const Path& out, const Config& config, const std::string& name,
-                     const PlanOptions& options, void (*check)(const Layout& layout, const Config& config)) {
+DatasetPlan plan_for(const Path& out, const ResolvedConfig& config, const std::string& name,
+                     const PlanOptions& options,
+                     void (*check)(const Layout& layout, const ResolvedConfig& config)) {
   const Layout layout{out};
   return in_turn(out, [&] {
     const std::string made = (unfinished_plan(layout.plan()) / "plan.json").string();
@@ -347,17 +349,17 @@ DatasetPlan plan_for(const Path& out, const Config& config, const std::string& n
 
 }  // namespace
 
-DatasetPlan plan_to_generate(const Path& out, const Config& config, const std::string& name,
+DatasetPlan plan_to_generate(const Path& out, const ResolvedConfig& config, const std::string& name,
                              const PlanOptions& options) {
   return plan_for(out, config, name, options, check_same_dataset);
 }
 
-DatasetPlan plan_to_render(const Path& out, const Config& config, const std::string& name,
+DatasetPlan plan_to_render(const Path& out, const ResolvedConfig& config, const std::string& name,
                            const PlanOptions& options) {
   return plan_for(out, config, name, options, check_same_passes);
 }
 
-DatasetPlan plan_to_preview(const Path& out, const Config& config, const std::string& name,
+DatasetPlan plan_to_preview(const Path& out, const ResolvedConfig& config, const std::string& name,
                             PlanOptions options) {
   options.preview = true;
   const Path folder = Layout{out}.preview();

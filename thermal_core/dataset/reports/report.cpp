@@ -24,9 +24,9 @@ namespace {
 constexpr double kStepH = 0.5;
 constexpr std::size_t kMostDays = 4;  // of clips with weather of their own
 
-std::optional<Config> readable(const Json& config, const Assets& assets) {
+std::optional<DatasetSpec> spec_of(const Json& document, const Assets& assets) {
   try {
-    return resolve_config(config, "config", assets);
+    return resolve_config(document, "config", assets).spec;
   } catch (const ConfigError&) {
     return std::nullopt;  // of another version
   }
@@ -44,12 +44,12 @@ Json over_the_day(const TemperatureAt& temperature_k) {
 /// The days around the flights of a dataset, by its config, as JSON: for each season `season`, `flown_h` (from and to,
 /// in local solar time), `step_h`, `air_k` and `materials_k`, temperatures of open level surfaces at 0:00, step_h, …
 /// 24:00. Empty without temperatures by the heat balance, or for a config of an unsupported version.
-Json day_figures(const Json& config, const Assets& assets) {
+Json day_figures(const Json& document, const Assets& assets) {
   Json days = Json::array();
-  const std::optional<Config> read = readable(config, assets);
-  if (!read || !read->physical || !read->heat_balance) return days;
+  const std::optional<DatasetSpec> spec = spec_of(document, assets);
+  if (!spec || !spec->physical || !spec->heat_balance) return days;
   const auto materials = heat_of_materials(read_materials(assets));
-  std::vector<FlownWeather> flown = flown_weather(*read);
+  std::vector<FlownWeather> flown = flown_weather(*spec);
   flown.resize(std::min(flown.size(), kMostDays));
   for (const auto& [season, weather, flown_h] : flown) {
     const DayWeather& day = weather.day;

@@ -48,7 +48,7 @@ void check_any_readable(const std::vector<ClipPasses>& sources, std::vector<Pass
 std::vector<PassesView> views_of(const std::vector<ConvertRequest>& requests,
                                  const std::vector<ClipPasses>& sources) {
   const bool looks =
-      std::ranges::any_of(requests, [](const auto& request) { return request.config.physical; });
+      std::ranges::any_of(requests, [](const auto& request) { return request.config.spec.physical; });
   std::vector<PassesView> views;
   for (const ClipPasses& source : sources) views.push_back(looks ? view_passes(source, true) : PassesView());
   return views;
@@ -70,7 +70,7 @@ std::vector<KeptTerms> terms_of(const std::vector<ConvertRequest>& requests, con
                                 const std::vector<PassesView>& views) {
   std::vector<KeptTerms> kept;
   for (const ConvertRequest& request : requests)
-    kept.emplace_back(request.config, outline_of(request.config, materials, sources, views));
+    kept.emplace_back(request.config.spec, outline_of(request.config.spec, materials, sources, views));
   return kept;
 }
 
@@ -87,9 +87,9 @@ std::vector<std::string> terms_left_out(const Budget& budget) {
 /// How a dataset makes a clip, but for the folder to make it in.
 ClipTask task_for(const ConvertRequest& request, const KeptTerms& kept, const ClipPasses& source,
                   HeatDays& heat) {
-  const ClipConfig& clip = request.config.clip(source.manifest.clip, source.folder.string());
-  ClipTask task = task_of(request.config, clip, kept.of(settings_of(request.config, clip)), heat,
-                          heat.ground_beside(source.folder));
+  const DatasetSpec& spec = request.config.spec;
+  const ClipSpec& clip = spec.clip(source.manifest.clip, source.folder.string());
+  ClipTask task = task_of(spec, clip, kept.of(clip), heat, heat.ground_beside(source.folder));
   task.variant = request.where;
   task.made_from_sha256 = source.identity_sha256;
   return task;
@@ -140,7 +140,8 @@ Backlog backlog_of(const ConvertRequest& request, const DatasetIndex& index, con
 
 ConvertForecast forecast_of(const ConvertRequest& request, const KeptTerms& kept,
                             const std::vector<ClipPasses>& sources, HeatDays& heat) {
-  const DatasetIndex index = open_dataset(own_layout(request), request.config);
+  const DatasetIndex index =
+      open_dataset(own_layout(request), request.config.document, ids_of(request.config.spec.clips));
   const Backlog backlog = backlog_of(request, index, kept, sources, heat);
   ConvertForecast forecast{
       .variant = request.variant, .out = request.out, .steps = {}, .left_out = terms_left_out(kept.budget())};
@@ -165,7 +166,8 @@ class Dataset {
         heat_(heat),
         kept_(kept),
         left_out_(terms_left_out(kept.budget())),
-        transaction_(own_layout(request_), request_.config, to_json(kept.budget())),
+        transaction_(own_layout(request_), request_.config.document, ids_of(request_.config.spec.clips),
+                     to_json(kept.budget())),
         backlog_(backlog_of(request_, transaction_.index(), kept_, sources, heat)) {
     for (const ClipPasses& source : sources) {
       if (!lacks(source)) outcome_.already_there.push_back(source.manifest.clip);
@@ -234,9 +236,8 @@ class Dataset {
   RunOutcome outcome_;
 };
 
-void check_codec(const ConvertRequest& request, const Manifest& manifest) {
-  const ClipConfig& clip = request.config.clip(manifest.clip, "manifest: clip");
-  const std::optional<VideoCodecSettings>& codec = settings_of(request.config, clip).codec;
+void check_codec(const ConvertRequest& request, const ClipSpec& clip, const Manifest& manifest) {
+  const std::optional<VideoCodecSettings>& codec = clip.settings->codec;
   if (!codec) return;
   try {
     check_video_codec(*codec, manifest.frame_rate_hz, manifest.camera.width_px, manifest.camera.height_px);
@@ -251,7 +252,8 @@ std::vector<std::unique_ptr<Dataset>> open_datasets(const std::vector<ConvertReq
   // First, because a required term that is impossible, or a missing codec, is a fault: then no folder is touched.
   const std::vector<KeptTerms> kept = terms_of(requests, heat.materials(), sources, views);
   for (const ConvertRequest& request : requests)
-    for (const ClipPasses& source : sources) check_codec(request, source.manifest);
+    for (std::size_t k = 0; k < sources.size(); ++k)
+      check_codec(request, request.config.spec.clips[k], sources[k].manifest);
   std::vector<std::unique_ptr<Dataset>> datasets;
   for (std::size_t i = 0; i < requests.size(); ++i)
     datasets.push_back(std::make_unique<Dataset>(requests[i], kept[i], heat, sources));

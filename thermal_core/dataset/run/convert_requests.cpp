@@ -33,42 +33,29 @@ Json default_document(const std::vector<ClipPasses>& sources) {
           {"clips", std::move(clips)}};
 }
 
-/// The clip of a manifest, if it is cut from one of the config's flights.
-std::optional<Json> clip_of_flight(const Config& config, const Manifest& manifest) {
-  for (const Json& flight : config.resolved["flights"]) {
-    if (flight["id"] != manifest.of_flight) continue;
-    return cut_from(flight, {{"id", manifest.clip},
-                             {"start_s", manifest.frames.front().time_s},
-                             {"frames", manifest.frames.size()},
-                             {"frame_rate_hz", manifest.frame_rate_hz}});
-  }
-  return std::nullopt;
-}
-
 /// Nothing is rendered here: an engine that the config leaves open is not one that drew the passes.
-Config resolved(const Json& document, const std::string& name, const Assets& assets) {
-  Config config = resolve_config(document, name, assets);
-  if (!config.engine_reason.empty()) config.resolved["render"]["engine"] = "auto";
+ResolvedConfig resolved(const Json& document, const std::string& name, const Assets& assets) {
+  ResolvedConfig config = resolve_config(document, name, assets);
+  if (!config.spec.engine_reason.empty()) config.document["render"]["engine"] = "auto";
   return config;
 }
 
+/// One of the config's clips, or cut from one of its flights.
+ClipSpec clip_of(const ClipPasses& source, const DatasetSpec& spec) {
+  const Manifest& manifest = source.manifest;
+  const FlightSpec* flight = spec.flight(manifest.of_flight);
+  if (flight == nullptr) return spec.clip(manifest.clip, source.folder.string() + ": clip");
+  return flight->cut({.id = manifest.clip,
+                      .frames = static_cast<int>(manifest.frames.size()),
+                      .frame_rate_hz = manifest.frame_rate_hz,
+                      .start_s = manifest.frames.front().time_s});
+}
+
 /// Reduces a config to these clips, so that the dataset is complete once they are made.
-Config only_clips_of(Config config, const std::vector<ClipPasses>& sources) {
-  Json documents = Json::array();
-  for (const ClipPasses& source : sources) {
-    const Manifest& manifest = source.manifest;
-    if (const auto cut = clip_of_flight(config, manifest)) {
-      documents.push_back(*cut);
-      continue;
-    }
-    (void)config.clip(manifest.clip, source.folder.string() + ": clip");
-    for (const Json& document : config.resolved["clips"]) {
-      if (document["id"] == manifest.clip) documents.push_back(document);
-    }
-  }
-  config.clips.clear();
-  config.resolved["clips"] = Json::array();
-  return with_clips(std::move(config), documents);
+ResolvedConfig only_clips_of(ResolvedConfig config, const std::vector<ClipPasses>& sources) {
+  std::vector<ClipSpec> clips;
+  for (const ClipPasses& source : sources) clips.push_back(clip_of(source, config.spec));
+  return with_clips(std::move(config), std::move(clips));
 }
 
 /// The folder of a file that names others. Without a file, names are relative to the working folder.
@@ -76,9 +63,10 @@ Path folder_of(const std::string& file) { return std::filesystem::absolute(file)
 
 /// The passes were rendered with the manifest's camera. A config that gives intrinsics, directly or by a calibration, must
 /// give the same ones: ConfigError if not.
-void check_cameras(const Config& config, const std::vector<ClipPasses>& sources, const std::string& name) {
-  for (const ClipPasses& source : sources) {
-    const ClipSettings& settings = settings_of(config, config.clip(source.manifest.clip, "manifest: clip"));
+void check_cameras(const DatasetSpec& spec, const std::vector<ClipPasses>& sources, const std::string& name) {
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    const ClipPasses& source = sources[k];
+    const ClipSettings& settings = *spec.clips[k].settings;
     if (!settings.gives_intrinsics) continue;
     const CameraIntrinsics& given = settings.camera;
     const CameraIntrinsics& there = source.manifest.camera;
@@ -129,9 +117,9 @@ std::vector<ConvertRequest> convert_requests(const ConvertOptions& options,
   const std::string name = options.config ? options.config_name : "--set";
   root_resolved_files(document, folder_of(options.config ? options.config_name : "."));
   // Resolved even if only variants are made, so that shared faults are not attributed to the first variant.
-  Config shared = only_clips_of(resolved(document, name, options.assets), sources);
-  check_cameras(shared, sources, name);
-  if (!shared.gives_intrinsics) check_settings(options, sources);
+  ResolvedConfig shared = only_clips_of(resolved(document, name, options.assets), sources);
+  check_cameras(shared.spec, sources, name);
+  if (!shared.spec.settings->gives_intrinsics) check_settings(options, sources);
   std::vector<ConvertRequest> requests;
   if (!options.variants) {
     requests.push_back({.variant = "", .where = "", .config = std::move(shared), .out = options.out});
@@ -139,7 +127,7 @@ std::vector<ConvertRequest> convert_requests(const ConvertOptions& options,
   }
   check_out(options.out);
   for (const Variant& variant : read_variants(*options.variants, options.variants_name, options.assets)) {
-    Config config = resolved(changed_by(variant, document), variant.where, options.assets);
+    ResolvedConfig config = resolved(changed_by(variant, document), variant.where, options.assets);
     requests.push_back({.variant = variant.name,
                         .where = variant.where,
                         .config = only_clips_of(std::move(config), sources),

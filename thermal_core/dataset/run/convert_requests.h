@@ -31,9 +31,9 @@ struct ConvertOptions {
 
 /// One dataset to make from passes.
 struct ConvertRequest {
-  std::string variant;  ///< empty: the only one
-  std::string where;    ///< start of messages about the variant; empty if there is only one
-  Config config;        ///< with these clips only
+  std::string variant;    ///< empty: the only one
+  std::string where;      ///< start of messages about the variant; empty if there is only one
+  ResolvedConfig config;  ///< with the clips of the sources alone, in their order
   Path out;
 };
 

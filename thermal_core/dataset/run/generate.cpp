@@ -28,32 +28,33 @@ namespace {
 using Stop = std::function<bool()>;
 
 /// That this machine's FFmpeg has the codecs, each tried once.
-void check_codecs(const Config& config) {
+void check_codecs(const DatasetSpec& spec) {
   std::set<std::string> tried;
-  for (const ClipConfig& clip : config.clips) {
-    const std::optional<VideoCodecSettings>& codec = settings_of(config, clip).codec;
+  for (const ClipSpec& clip : spec.clips) {
+    const std::optional<VideoCodecSettings>& codec = clip.settings->codec;
     if (codec && tried.insert(codec->name).second)
-      check_video_codec(*codec, clip.frame_rate_hz, config.width_px, config.height_px);
+      check_video_codec(*codec, clip.frame_rate_hz, spec.width_px, spec.height_px);
   }
 }
 
 /// Makes clips from the output of render jobs.
 class Generator {
  public:
-  Generator(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
+  Generator(const ResolvedConfig& config, const DatasetPlan& plan, const GenerateOptions& options,
             const RunHooks& hooks)
       : config_(config),
-        plan_(plan),
+        spec_(config.spec),
         options_(options),
         hooks_(hooks),
         layout_{options.out, options.scratch},
-        chosen_(choose_clips(config, options.clips, options.shard)),
+        chosen_(choose_clips(spec_, options.clips, options.shard)),
         materials_(read_materials(options.assets)),
         heat_(materials_),
-        ground_(read_needed_ground_maps(options.plan, config, options.assets)),
-        kept_(config, outline_of(config, plan, materials_)),
-        transaction_(layout_, config, to_json(kept_.budget()), chosen_) {
-    for (const ClipConfig& clip : chosen_)
+        ground_(read_needed_ground_maps(options.plan, spec_, options.assets)),
+        kept_(spec_, outline_of(spec_, plan, materials_)),
+        transaction_(layout_, config.document, ids_of(spec_.clips), to_json(kept_.budget()),
+                     ids_of(chosen_)) {
+    for (const ClipSpec& clip : chosen_)
       index().finished.contains(clip.id) ? already_there_.push_back(clip.id) : pending_.push_back(clip);
   }
 
@@ -61,7 +62,7 @@ class Generator {
     RunMonitor monitor(hooks_, options_.out, frames_of(pending_));
     if (!pending_.empty()) {
       transaction_.begin([this] {
-        if (options_.keep_passes || config_.engine == Engine::blender)
+        if (options_.keep_passes || spec_.engine == Engine::blender)
           begin_passes(layout_, config_, ids_of(pending_));
         if (options_.keep_passes && ground_) copy_ground_maps(options_.plan, layout_.passes());
       });
@@ -77,20 +78,20 @@ class Generator {
 
  private:
   void make_pending(RunMonitor& monitor) {
-    if (config_.engine == Engine::embree) {
-      const PlanTracer tracer(options_.plan, config_, plan_, options_.assets);
-      for (const ClipConfig& clip : pending_) try_make(clip, tracer, monitor);
+    if (spec_.engine == Engine::embree) {
+      const PlanTracer tracer(options_.plan, spec_, options_.assets);
+      for (const ClipSpec& clip : pending_) try_make(clip, tracer, monitor);
       return;
     }
-    write_manifests(config_, plan_, options_, ids_of(pending_));
+    write_manifests(spec_, options_, pending_);
     const ClipWork work = [this, &monitor](const std::string& id, RenderJob& job, const Stop& stop_wanted) {
-      try_make(config_.clip(id, "clips"), job, stop_wanted, monitor);
+      try_make(spec_.clip(id, "clips"), job, stop_wanted, monitor);
     };
-    run_workers(passes_tasks(config_, options_, ids_of(pending_), monitor), options_.threads, work,
+    run_workers(passes_tasks(spec_, options_, ids_of(pending_), monitor), options_.threads, work,
                 [&monitor] { return monitor.stop_wanted(); });
   }
 
-  void try_make(const ClipConfig& clip, const PlanTracer& tracer, RunMonitor& monitor) {
+  void try_make(const ClipSpec& clip, const PlanTracer& tracer, RunMonitor& monitor) {
     try {
       commit(clip, make(clip, tracer, monitor), monitor);
     } catch (const DataError& fault) {
@@ -100,7 +101,7 @@ class Generator {
     }
   }
 
-  void try_make(const ClipConfig& clip, RenderJob& job, const Stop& stop_wanted, RunMonitor& monitor) {
+  void try_make(const ClipSpec& clip, RenderJob& job, const Stop& stop_wanted, RunMonitor& monitor) {
     try {
       commit(clip, make(clip, job, stop_wanted, monitor), monitor);
     } catch (const ClipLost& fault) {
@@ -113,17 +114,17 @@ class Generator {
     }
   }
 
-  void commit(const ClipConfig& clip, const ClipRecord& record, RunMonitor& monitor) {
+  void commit(const ClipSpec& clip, const ClipRecord& record, RunMonitor& monitor) {
     transaction_.commit(record);
-    if (!options_.keep_passes && config_.engine == Engine::blender)
+    if (!options_.keep_passes && spec_.engine == Engine::blender)
       (void)sweep_folder(layout_.passes(clip.id));  // or end_passes() says why not
     monitor.made(clip);
   }
 
-  ClipRecord make(const ClipConfig& clip, const PlanTracer& tracer, RunMonitor& monitor) {
+  ClipRecord make(const ClipSpec& clip, const PlanTracer& tracer, RunMonitor& monitor) {
     monitor.begin(clip);
     const bool keep = options_.keep_passes;
-    SpaceWatch space(config_, clip, layout_, {.passes = keep},
+    SpaceWatch space(spec_, clip, layout_, {.passes = keep},
                      [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
     int done = 0;
     const ClipHooks clip_hooks = {.wait_for_frame = {},
@@ -134,13 +135,13 @@ class Generator {
                                         monitor.frame_done(clip.id);
                                       },
                                   .cancelled = [&monitor] { return monitor.stop_wanted(); }};
-    return make_clip(tracer.trace(clip.id, layout_.passes(clip.id), keep), task_for(clip), materials_,
+    return make_clip(tracer.trace(clip, layout_.passes(clip.id), keep), task_for(clip), materials_,
                      clip_hooks);
   }
 
-  ClipRecord make(const ClipConfig& clip, RenderJob& job, const Stop& stop_wanted, RunMonitor& monitor) {
+  ClipRecord make(const ClipSpec& clip, RenderJob& job, const Stop& stop_wanted, RunMonitor& monitor) {
     monitor.begin(clip);
-    SpaceWatch space(config_, clip, layout_, {}, [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
+    SpaceWatch space(spec_, clip, layout_, {}, [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
     const Path folder = layout_.passes(clip.id);
     const ClipPasses passes = {.manifest = read_manifest(folder / "manifest.json", options_.assets),
                                .folder = folder};
@@ -158,19 +159,19 @@ class Generator {
     return make_clip(passes, task_for(clip), materials_, clip_hooks);
   }
 
-  [[nodiscard]] ClipTask task_for(const ClipConfig& clip) {
-    ClipTask task = task_of(config_, clip, kept_.of(settings_of(config_, clip)), heat_, ground_);
+  [[nodiscard]] ClipTask task_for(const ClipSpec& clip) {
+    ClipTask task = task_of(spec_, clip, kept_.of(clip), heat_, ground_);
     task.folder = transaction_.unfinished(clip.id);
     return task;
   }
 
   /// Useless passes are rendered anew by the next run; until then they can be inspected.
-  void reject(const ClipConfig& clip, const std::string& why, RunMonitor& monitor) {
+  void reject(const ClipSpec& clip, const std::string& why, RunMonitor& monitor) {
     write_file_atomically(layout_.unusable(clip.id), why + "\n");
     fail_clip(clip, why, false, monitor);
   }
 
-  void fail_clip(const ClipConfig& clip, const std::string& why, bool killed, RunMonitor& monitor) {
+  void fail_clip(const ClipSpec& clip, const std::string& why, bool killed, RunMonitor& monitor) {
     transaction_.reject(clip.id, why);
     monitor.lost(clip, why, killed);
   }
@@ -183,7 +184,7 @@ class Generator {
     return outcome;
   }
 
-  [[nodiscard]] std::vector<std::string> finished_of(const std::vector<ClipConfig>& clips) const {
+  [[nodiscard]] std::vector<std::string> finished_of(const std::vector<ClipSpec>& clips) const {
     std::vector<std::string> ids = ids_of(clips);
     std::erase_if(ids, [this](const std::string& id) { return !index().finished.contains(id); });
     return ids;
@@ -191,26 +192,26 @@ class Generator {
 
   [[nodiscard]] const DatasetIndex& index() const { return transaction_.index(); }
 
-  const Config& config_;
-  const DatasetPlan& plan_;
+  const ResolvedConfig& config_;
+  const DatasetSpec& spec_;
   const GenerateOptions& options_;
   const RunHooks& hooks_;
   Layout layout_;
-  std::vector<ClipConfig> chosen_;
+  std::vector<ClipSpec> chosen_;
   MaterialLibrary materials_;
   HeatDays heat_;
   std::shared_ptr<const GroundMaps> ground_;  ///< null: not needed, or an old plan's
   KeptTerms kept_;
   DatasetTransaction transaction_;  ///< of the chosen clips
-  std::vector<ClipConfig> pending_;
+  std::vector<ClipSpec> pending_;
   std::vector<std::string> already_there_;
 };
 
 }  // namespace
 
-RunOutcome generate(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
+RunOutcome generate(const ResolvedConfig& config, const DatasetPlan& plan, const GenerateOptions& options,
                     const RunHooks& hooks) {
-  check_codecs(config);
+  check_codecs(config.spec);
   return with_threads(options.threads, [&] { return Generator(config, plan, options, hooks).run(); });
 }
 

@@ -12,7 +12,7 @@ namespace thermal {
 /// written. Other runs may make other clips of it at the same time. A clip over which Blender crashes twice, or whose
 /// passes cannot be converted, is listed in the outcome, and the others are still made; the next run tries it again.
 /// ConfigError, IoError, TryAgainError or Cancelled; finished clips stay.
-RunOutcome generate(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
+RunOutcome generate(const ResolvedConfig& config, const DatasetPlan& plan, const GenerateOptions& options,
                     const RunHooks& hooks);
 
 }  // namespace thermal

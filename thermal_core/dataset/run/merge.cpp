@@ -74,20 +74,17 @@ std::vector<Source> open_sources(const MergeOptions& options, MergeOutcome& outc
       continue;
     }
     sources.push_back(open_source(root));
-    if (options.config) check_same_config(options.config->resolved, "the plan", sources.back());
+    if (options.config) check_same_config(options.config->document, "the plan", sources.back());
     check_same_config(sources.front().document.at("config"), sources.front().root.string(), sources.back());
   }
   if (sources.empty()) throw ConfigError("none of DIR has a dataset.json; expected shards of a dataset");
   return sources;
 }
 
-/// What the index of a merged dataset needs from a config.
-Config config_of(const Source& source) {
-  Config config;
-  config.resolved = source.document.at("config");
-  for (const Json& clip : source.document.at("clips"))
-    config.clips.push_back({.id = clip.at("id"), .frames = clip.value("frames", 0)});
-  return config;
+std::vector<std::string> clips_of(const Source& source) {
+  std::vector<std::string> ids;
+  for (const Json& clip : source.document.at("clips")) ids.push_back(clip.at("id"));
+  return ids;
 }
 
 std::optional<FoundClip> find_clip(const Source& source, const std::string& id) {
@@ -134,7 +131,7 @@ class Merger {
       : options_(options),
         hooks_(hooks),
         sources_(open_sources(options, outcome_)),
-        transaction_({options.out}, config_of(sources_.front()),
+        transaction_({options.out}, sources_.front().document.at("config"), clips_of(sources_.front()),
                      sources_.front().document.value("physics", Json())) {}
 
   MergeOutcome run() {
@@ -167,11 +164,12 @@ class Merger {
 
   void find_shards() {
     if (!options_.config || options_.shards == 0) return;
-    const std::vector<int> shards = deal_shards(*options_.config, options_.shards);
+    const DatasetSpec& spec = options_.config->spec;
+    const std::vector<int> shards = deal_shards(spec, options_.shards);
     const auto& finished = transaction_.index().finished;
     std::set<int> found;
     for (std::size_t clip_index = 0; clip_index < shards.size(); ++clip_index)
-      if (!finished.contains(options_.config->clips[clip_index].id)) found.insert(shards[clip_index]);
+      if (!finished.contains(spec.clips[clip_index].id)) found.insert(shards[clip_index]);
     outcome_.shards_to_make.assign(found.begin(), found.end());
   }
 

@@ -7,15 +7,17 @@
 
 #include "dataset/progress.h"
 #include "dataset/run/options.h"
+#include "io/config/config.h"
 #include "io/system/files.h"
 
 namespace thermal {
 
 /// What is joined.
 struct MergeOptions {
-  std::vector<Path> sources;          ///< datasets, each with some of one config's clips
-  Path out;                           ///< not one of them; may hold some of the clips already
-  std::optional<Config> config = {};  ///< of all sources, if it is known; then a source may lack its dataset
+  std::vector<Path> sources;  ///< datasets, each with some of one config's clips
+  Path out;                   ///< not one of them; may hold some of the clips already
+  std::optional<ResolvedConfig> config =
+      {};          ///< of all sources, if it is known; then a source may lack its dataset
   int shards = 0;  ///< with `config`: number of shards, to find those that miss clips; 0: unknown
   Linking linking = Linking::hard;  ///< where the file system supports them; otherwise copies
 };

@@ -37,11 +37,11 @@ std::int64_t ClipSpace::needed_bytes() const {
          (frames - pictures.count) * pictures.bytes_per_frame();
 }
 
-ClipSpace space_for(const Config& config, const ClipConfig& clip, const ClipFiles& files) {
-  const std::int64_t finer = config.supersample;
-  const std::int64_t wide_px = finer * (config.width_px + 2 * config.overscan_px);
-  const std::int64_t high_px = finer * (config.height_px + 2 * config.overscan_px);
-  const std::int64_t picture_px = std::int64_t{config.width_px} * config.height_px;
+ClipSpace space_for(const DatasetSpec& spec, const ClipSpec& clip, const ClipFiles& files) {
+  const std::int64_t finer = spec.supersample;
+  const std::int64_t wide_px = finer * (spec.width_px + 2 * spec.overscan_px);
+  const std::int64_t high_px = finer * (spec.height_px + 2 * spec.overscan_px);
+  const std::int64_t picture_px = std::int64_t{spec.width_px} * spec.height_px;
   return {.frames = clip.frames,
           .passes = {.worst_bytes = files.passes ? kPassesBytesPerPixel * wide_px * high_px : 0},
           .pictures = {.worst_bytes = files.pictures ? kPicturesBytesPerPixel * picture_px : 0}};
@@ -66,9 +66,9 @@ void check_space(std::int64_t left_bytes, std::int64_t needed_bytes, const std::
                                   bytes_in_words(left_bytes), bytes_in_words(needed_bytes), whose));
 }
 
-SpaceWatch::SpaceWatch(const Config& config, const ClipConfig& clip, const Layout& layout,
+SpaceWatch::SpaceWatch(const DatasetSpec& spec, const ClipSpec& clip, const Layout& layout,
                        const ClipFiles& files, Report report)
-    : id_(clip.id), layout_(layout), report_(std::move(report)), space_(space_for(config, clip, files)) {
+    : id_(clip.id), layout_(layout), report_(std::move(report)), space_(space_for(spec, clip, files)) {
   int there = 0;
   while (there < clip.frames && std::filesystem::exists(layout_.passes(id_) / passes_name(there))) ++there;
   passes_ready(there);
@@ -93,7 +93,7 @@ RunMonitor::RunMonitor(const RunHooks& hooks, const Path& out, int frames_total)
   progress_.total = frames_total;
 }
 
-void RunMonitor::begin(const ClipConfig& clip) {
+void RunMonitor::begin(const ClipSpec& clip) {
   const std::lock_guard lock(mutex_);
   frames_done_[clip.id] = 0;
   progress_.clip = clip.id;
@@ -108,14 +108,14 @@ void RunMonitor::frame_done(const std::string& clip) {
   hooks_.report(progress_);
 }
 
-void RunMonitor::made(const ClipConfig& clip) {
+void RunMonitor::made(const ClipSpec& clip) {
   const std::lock_guard lock(mutex_);
   outcome_.made.push_back(clip.id);
   outcome_.frames_made += clip.frames;
   end(clip);
 }
 
-void RunMonitor::lost(const ClipConfig& clip, const std::string& why, bool killed) {
+void RunMonitor::lost(const ClipSpec& clip, const std::string& why, bool killed) {
   const std::lock_guard lock(mutex_);
   outcome_.failed[clip.id] = why;
   all_killed_ = all_killed_ && killed;
@@ -124,7 +124,7 @@ void RunMonitor::lost(const ClipConfig& clip, const std::string& why, bool kille
   hooks_.report(progress_);
 }
 
-void RunMonitor::end(const ClipConfig& clip) {
+void RunMonitor::end(const ClipSpec& clip) {
   frames_done_.erase(clip.id);
   needs_.erase(clip.id);
 }

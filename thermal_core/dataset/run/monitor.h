@@ -9,7 +9,7 @@
 #include "dataset/dataset_file.h"
 #include "dataset/progress.h"
 #include "dataset/run/options.h"
-#include "io/config/config.h"
+#include "io/config/spec.h"
 
 namespace thermal {
 
@@ -44,7 +44,7 @@ struct ClipFiles {
 };
 
 /// A clip without any files yet.
-[[nodiscard]] ClipSpace space_for(const Config& config, const ClipConfig& clip, const ClipFiles& files);
+[[nodiscard]] ClipSpace space_for(const DatasetSpec& spec, const ClipSpec& clip, const ClipFiles& files);
 
 /// "850 kB", "85 MB", "1.2 GB": two digits or more; kB is 1000 bytes and the smallest unit.
 [[nodiscard]] std::string bytes_in_words(std::int64_t bytes);
@@ -60,7 +60,7 @@ class SpaceWatch {
   using Report = std::function<void(std::int64_t needed_bytes)>;
 
   /// Counts the passes left by an earlier run.
-  SpaceWatch(const Config& config, const ClipConfig& clip, const Layout& layout, const ClipFiles& files,
+  SpaceWatch(const DatasetSpec& spec, const ClipSpec& clip, const Layout& layout, const ClipFiles& files,
              Report report);
 
   /// Records that this many leading frames of the passes are complete.
@@ -84,11 +84,11 @@ class RunMonitor {
  public:
   RunMonitor(const RunHooks& hooks, const Path& out, int frames_total);
 
-  void begin(const ClipConfig& clip);
+  void begin(const ClipSpec& clip);
   void frame_done(const std::string& clip);
-  void made(const ClipConfig& clip);
+  void made(const ClipSpec& clip);
   /// `killed`: whether it failed because Blender was killed.
-  void lost(const ClipConfig& clip, const std::string& why, bool killed);
+  void lost(const ClipSpec& clip, const std::string& why, bool killed);
   void restarted(const std::string& clip, const std::string& why);
 
   /// Sets the space that a clip being made still needs. TryAgainError if all of them together may not fit.
@@ -99,7 +99,7 @@ class RunMonitor {
   [[nodiscard]] RunOutcome outcome();
 
  private:
-  void end(const ClipConfig& clip);
+  void end(const ClipSpec& clip);
 
   const RunHooks& hooks_;
   Path out_;

@@ -7,7 +7,7 @@
 
 #include "dataset/dataset_index.h"
 #include "io/assets.h"
-#include "io/config/config.h"
+#include "io/config/spec.h"
 #include "io/system/files.h"
 
 namespace thermal {
@@ -18,14 +18,14 @@ struct Estimate {
   double bytes = 0;    ///< of the finished dataset, without passes
 };
 
-/// Estimates a run over `frames` frames of a config's camera, in this many clips, by the config's engine. From
+/// Estimates a run over `frames` frames of a dataset's camera, in this many clips, by its engine. From
 /// measurements of the savanna and the demo, for Blender by `veldt bench --suite render`: within a factor of two,
 /// unless the place is far larger or emptier.
-[[nodiscard]] Estimate estimate_run(const Config& config, int clips, int frames);
+[[nodiscard]] Estimate estimate_run(const DatasetSpec& spec, int clips, int frames);
 
 /// Of that, a clip of so many frames. How far clips of the same length differ, by the plants in view, is not known
 /// before: by a quarter in flights at one height and angle of configs/airsim_w.json, by up to half in others.
-[[nodiscard]] double clip_seconds(const Config& config, int frames);
+[[nodiscard]] double clip_seconds(const DatasetSpec& spec, int frames);
 
 /// One of `count` parts of a dataset's clips, which are made separately: 0 <= index < count.
 struct Shard {
@@ -37,7 +37,7 @@ struct Shard {
 /// dealt first, each to the shard with the least work so far, so that no two shards differ by more than the most
 /// expensive clip. Depends on the clips' frames and the number of shards alone, so that every machine deals alike.
 /// @param count  of shards, at least 1; with more shards than clips, some get none
-[[nodiscard]] std::vector<int> deal_shards(const Config& config, int count);
+[[nodiscard]] std::vector<int> deal_shards(const DatasetSpec& spec, int count);
 
 /// What `veldt generate` is given.
 struct GenerateOptions {
@@ -68,16 +68,17 @@ struct RunOutcome {
 };
 
 /// The config's clips that a run makes. ConfigError for an unknown id.
-[[nodiscard]] std::vector<ClipConfig> choose_clips(const Config& config, const std::vector<std::string>& ids,
-                                                   const Shard& shard);
+[[nodiscard]] std::vector<ClipSpec> choose_clips(const DatasetSpec& spec, const std::vector<std::string>& ids,
+                                                 const Shard& shard);
 
 /// The ids of clips, in their order.
-[[nodiscard]] std::vector<std::string> ids_of(const std::vector<ClipConfig>& clips);
+[[nodiscard]] std::vector<std::string> ids_of(const std::vector<ClipSpec>& clips);
 
 /// How many frames the clips have together.
-[[nodiscard]] int frames_of(const std::vector<ClipConfig>& clips);
+[[nodiscard]] int frames_of(const std::vector<ClipSpec>& clips);
 
-/// Positions of these clips in the config: the part of its folder that a run locks.
-[[nodiscard]] std::vector<std::size_t> places_of(const Config& config, const std::vector<ClipConfig>& clips);
+/// Positions of some clips among all of a dataset: the part of its folder that a run locks.
+[[nodiscard]] std::vector<std::size_t> places_of(const std::vector<std::string>& some,
+                                                 const std::vector<std::string>& all);
 
 }  // namespace thermal

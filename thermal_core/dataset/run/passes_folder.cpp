@@ -22,35 +22,35 @@ bool has_clips(const Path& passes) {
 }
 
 /// Whether the passes are of another config, as `veldt render` may have left them.
-bool holds_others(const Layout& layout, const Config& config) {
+bool holds_others(const Layout& layout, const ResolvedConfig& config) {
   if (!std::filesystem::exists(layout.passes_config())) return false;
   const Json there =
       Json::parse(read_file(layout.passes_config()), nullptr, false);  // of a damaged file, too
-  return !differences(config.resolved, there).empty();
+  return !differences(config.document, there).empty();
 }
 
 }  // namespace
 
-void begin_passes(const Layout& layout, const Config& config, const std::vector<std::string>& clips) {
+void begin_passes(const Layout& layout, const ResolvedConfig& config, const std::vector<std::string>& clips) {
   make_own_folder(layout.passes());
   for (const std::string& clip : clips) {
     if (std::filesystem::exists(layout.unusable(clip))) std::filesystem::remove_all(layout.passes(clip));
     make_folder(layout.passes(clip));
   }
-  write_file_atomically(layout.passes_config(), to_text(config.resolved));
+  write_file_atomically(layout.passes_config(), to_text(config.document));
 }
 
-void check_same_passes(const Layout& layout, const Config& config) {
+void check_same_passes(const Layout& layout, const ResolvedConfig& config) {
   if (!std::filesystem::exists(layout.passes_config())) return;
   const Json there = read_json(layout.passes_config());
-  const std::vector<std::string> found = differences(config.resolved, there);
+  const std::vector<std::string> found = differences(config.document, there);
   if (found.empty()) return;
   throw ConfigError(fmt::format("{} holds passes of another config: {}; expected {}, or another folder",
                                 layout.passes().string(), fmt::join(found, ", "),
-                                expected_config(config.resolved, there)));
+                                expected_config(config.document, there)));
 }
 
-std::vector<LeftOver> end_passes(const Layout& layout, const Config& config,
+std::vector<LeftOver> end_passes(const Layout& layout, const ResolvedConfig& config,
                                  const std::vector<std::string>& clips) {
   std::vector<LeftOver> left_over;
   if (!std::filesystem::is_directory(layout.passes()) || holds_others(layout, config)) return left_over;
@@ -62,25 +62,23 @@ std::vector<LeftOver> end_passes(const Layout& layout, const Config& config,
   return left_over;
 }
 
-void write_manifests(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
-                     const std::vector<std::string>& clips) {
+void write_manifests(const DatasetSpec& spec, const GenerateOptions& options,
+                     const std::vector<ClipSpec>& clips) {
   const Layout layout{options.out, options.scratch};
   const BakedScene scene = read_baked_scene(options.plan, options.assets);
-  for (const std::string& clip : clips) {
-    const BakedTrack track = read_baked_track(options.plan, clip, scene, options.assets);
-    const ClipPlan& planned = *std::ranges::find(plan.clips, clip, &ClipPlan::id);
-    const ClipSettings& settings = settings_of(config, config.clip(clip, "clips"));
-    const std::string text = to_text(manifest_of(scene, track, planned, config, settings));
-    const Path file = layout.passes(clip) / "manifest.json";
-    if (std::filesystem::exists(layout.passes(clip) / passes_name(0)) &&
+  for (const ClipSpec& clip : clips) {
+    const BakedTrack track = read_baked_track(options.plan, clip.id, scene, options.assets);
+    const std::string text = to_text(manifest_of(scene, track, spec, clip));
+    const Path folder = layout.passes(clip.id);
+    const Path file = folder / "manifest.json";
+    if (std::filesystem::exists(folder / passes_name(0)) &&
         !(std::filesystem::exists(file) && read_file(file) == text))
-      throw ConfigError(
-          fault("--out", layout.passes(clip).string(), "", "no frames there, or frames of this plan"));
+      throw ConfigError(fault("--out", folder.string(), "", "no frames there, or frames of this plan"));
     write_file_atomically(file, text);
   }
 }
 
-std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOptions& options,
+std::vector<RenderJob::Task> passes_tasks(const DatasetSpec& spec, const GenerateOptions& options,
                                           const std::vector<std::string>& clips, RunMonitor& monitor) {
   const Layout layout{options.out, options.scratch};
   const auto hands = deal_clips(clips, options.jobs);
@@ -95,8 +93,8 @@ std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOp
                      .log = layout.passes() / (hand.front() + ".log"),
                      .clips = hand,
                      .threads = threads_each(threads, static_cast<int>(hands.size())),
-                     .supersample = config.supersample,
-                     .actor_layer = config.actor_layer,
+                     .supersample = spec.supersample,
+                     .actor_layer = spec.actor_layer,
                      .preview = false,
                      .restarted = [&monitor](const std::string& clip, const std::string& why) {
                        monitor.restarted(clip, why);

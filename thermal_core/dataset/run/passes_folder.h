@@ -4,32 +4,33 @@
 #include <vector>
 
 #include "dataset/dataset_file.h"
-#include "dataset/plan/plan_store.h"
 #include "dataset/run/monitor.h"
 #include "dataset/run/options.h"
 #include "dataset/run/render_job.h"
+#include "io/config/config.h"
 
 namespace thermal {
 
 /// Prepares the folders for the passes of a run's clips: one each, without unusable passes of earlier runs, and the
 /// resolved config beside them. A clip's folder shows other runs that the clip is being made.
-void begin_passes(const Layout& layout, const Config& config, const std::vector<std::string>& clips);
+void begin_passes(const Layout& layout, const ResolvedConfig& config, const std::vector<std::string>& clips);
 
 /// A folder for passes belongs to one config, like a dataset's. ConfigError with the keys that differ.
-void check_same_passes(const Layout& layout, const Config& config);
+void check_same_passes(const Layout& layout, const ResolvedConfig& config);
 
 /// Removes the passes of these clips, and with the last clip's everything beside them. Passes that veldt render made of
 /// another config stay. Returns what could not be removed.
-std::vector<LeftOver> end_passes(const Layout& layout, const Config& config,
+std::vector<LeftOver> end_passes(const Layout& layout, const ResolvedConfig& config,
                                  const std::vector<std::string>& clips);
 
 /// Writes the manifests of clips that Blender is to render. ConfigError if a folder holds frames of another manifest;
 /// DataError or IoError as read_baked_scene().
-void write_manifests(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
-                     const std::vector<std::string>& clips);
+void write_manifests(const DatasetSpec& spec, const GenerateOptions& options,
+                     const std::vector<ClipSpec>& clips);
 
 /// The render jobs for these clips, one task each. They report restarts to the monitor.
-[[nodiscard]] std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOptions& options,
+[[nodiscard]] std::vector<RenderJob::Task> passes_tasks(const DatasetSpec& spec,
+                                                        const GenerateOptions& options,
                                                         const std::vector<std::string>& clips,
                                                         RunMonitor& monitor);
 

@@ -19,7 +19,7 @@
 namespace thermal {
 namespace {
 
-void render_clip(const ClipConfig& clip, RenderJob& job, const std::function<bool()>& stop_wanted,
+void render_clip(const ClipSpec& clip, RenderJob& job, const std::function<bool()>& stop_wanted,
                  SpaceWatch& space, RunMonitor& monitor) {
   for (int frame = 0; frame < clip.frames; ++frame) {
     job.wait_for_frame(clip.id, frame, stop_wanted);
@@ -31,7 +31,7 @@ void render_clip(const ClipConfig& clip, RenderJob& job, const std::function<boo
 using Report = std::function<void(int frames)>;  ///< how many leading frames are there
 
 /// Writes the passes of a clip that are missing, some frames at a time.
-void trace_clip(const ClipConfig& clip, const ClipPasses& passes, RunMonitor& monitor, const Report& report) {
+void trace_clip(const ClipSpec& clip, const ClipPasses& passes, RunMonitor& monitor, const Report& report) {
   constexpr int kFramesAtOnce = 16;
   for (int first = 0; first < clip.frames; first += kFramesAtOnce) {
     if (monitor.stop_wanted()) throw Cancelled();
@@ -48,21 +48,21 @@ void trace_clip(const ClipConfig& clip, const ClipPasses& passes, RunMonitor& mo
   }
 }
 
-void trace_clips(const std::vector<ClipConfig>& clips, const PlanTracer& tracer, const Config& config,
+void trace_clips(const std::vector<ClipSpec>& clips, const PlanTracer& tracer, const DatasetSpec& spec,
                  const Layout& layout, RunMonitor& monitor) {
-  for (const ClipConfig& clip : clips) {
+  for (const ClipSpec& clip : clips) {
     monitor.begin(clip);
-    SpaceWatch space(config, clip, layout, {.pictures = false},
+    SpaceWatch space(spec, clip, layout, {.pictures = false},
                      [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
-    trace_clip(clip, tracer.trace(clip.id, layout.passes(clip.id), true), monitor,
+    trace_clip(clip, tracer.trace(clip, layout.passes(clip.id), true), monitor,
                [&space](int frames) { space.passes_ready(frames); });
     monitor.made(clip);
   }
 }
 
-RenderJob::Task preview_task(const Config& config, const GenerateOptions& options) {
+RenderJob::Task preview_task(const ResolvedConfig& config, const GenerateOptions& options) {
   const Path folder = Layout{options.out}.preview();
-  write_file_atomically(folder / "config.json", to_text(config.resolved));
+  write_file_atomically(folder / "config.json", to_text(config.document));
   return {.blender = options.blender,
           .assets = options.assets,
           .plan = folder / "plan",
@@ -86,11 +86,11 @@ Path find_blender(const std::string& named, const std::string& option) {
       fmt::format("no blender on PATH; install it (apt-get install blender) or name one with {}", option));
 }
 
-RunOutcome render(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
-                  const RunHooks& hooks) {
+RunOutcome render(const ResolvedConfig& config, const GenerateOptions& options, const RunHooks& hooks) {
   const Layout layout{options.out};
-  const std::vector<ClipConfig> clips = choose_clips(config, options.clips, options.shard);
-  const FolderLock lock(options.out, places_of(config, clips));
+  const DatasetSpec& spec = config.spec;
+  const std::vector<ClipSpec> clips = choose_clips(spec, options.clips, options.shard);
+  const FolderLock lock(options.out, places_of(ids_of(clips), ids_of(spec.clips)));
   if (clips.empty()) return {};
   lock.in_turn([&] {
     check_same_passes(layout, config);
@@ -98,20 +98,20 @@ RunOutcome render(const Config& config, const DatasetPlan& plan, const GenerateO
     copy_ground_maps(options.plan, layout.passes());
   });
   RunMonitor monitor(hooks, options.out, frames_of(clips));
-  if (config.engine == Engine::embree) {
+  if (spec.engine == Engine::embree) {
     with_threads(options.threads, [&] {
-      trace_clips(clips, PlanTracer(options.plan, config, plan, options.assets), config, layout, monitor);
+      trace_clips(clips, PlanTracer(options.plan, spec, options.assets), spec, layout, monitor);
     });
     RunOutcome outcome = monitor.outcome();
     outcome.complete = true;
     return outcome;
   }
-  write_manifests(config, plan, options, ids_of(clips));
+  write_manifests(spec, options, clips);
   const ClipWork work = [&](const std::string& id, RenderJob& job, const std::function<bool()>& stop_wanted) {
-    const ClipConfig& clip = config.clip(id, "clips");
+    const ClipSpec& clip = spec.clip(id, "clips");
     monitor.begin(clip);
     try {
-      SpaceWatch space(config, clip, layout, {.pictures = false},
+      SpaceWatch space(spec, clip, layout, {.pictures = false},
                        [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
       render_clip(clip, job, stop_wanted, space, monitor);
       monitor.made(clip);
@@ -119,14 +119,14 @@ RunOutcome render(const Config& config, const DatasetPlan& plan, const GenerateO
       monitor.lost(clip, fault.what(), fault.killed());
     }
   };
-  run_workers(passes_tasks(config, options, ids_of(clips), monitor), options.threads, work,
+  run_workers(passes_tasks(spec, options, ids_of(clips), monitor), options.threads, work,
               [&monitor] { return monitor.stop_wanted(); });
   RunOutcome outcome = monitor.outcome();
   outcome.complete = outcome.failed.empty();
   return outcome;
 }
 
-int preview(const Config& config, const GenerateOptions& options, const RunHooks& hooks) {
+int preview(const ResolvedConfig& config, const GenerateOptions& options, const RunHooks& hooks) {
   const FolderLock lock(options.out);
   RenderJob job(preview_task(config, options));
   const std::string clip = RenderJob::kPreview;

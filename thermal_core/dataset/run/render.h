@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "dataset/plan/plan_store.h"
 #include "dataset/progress.h"
 #include "dataset/run/options.h"
 #include "io/config/config.h"
@@ -15,11 +14,10 @@ namespace thermal {
 
 /// Renders passes and manifests only, into `passes/<clip>`; otherwise like generate(). `config` has the clips of the
 /// plan, which plan_to_render() has written.
-RunOutcome render(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
-                  const RunHooks& hooks);
+RunOutcome render(const ResolvedConfig& config, const GenerateOptions& options, const RunHooks& hooks);
 
 /// Renders a map of the config's place, and colour stills of it, into preview/; overwrites earlier ones. Returns the
 /// number of pictures. plan_to_preview() has written the plan.
-int preview(const Config& config, const GenerateOptions& options, const RunHooks& hooks);
+int preview(const ResolvedConfig& config, const GenerateOptions& options, const RunHooks& hooks);
 
 }  // namespace thermal

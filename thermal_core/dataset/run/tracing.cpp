@@ -1,6 +1,5 @@
 #include "dataset/run/tracing.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -59,20 +58,20 @@ class TracedPasses : public PassSource {
 };
 
 /// Frames are asked for as the plan counts them.
-void check_frames(const BakedTrack& track, const ClipPlan& clip, const Path& folder) {
+void check_frames(const BakedTrack& track, const ClipSpec& clip, const Path& folder) {
   if (track.frames == static_cast<std::size_t>(clip.frames)) return;
   throw DataError(fmt::format("{}: {}", (folder / "tracks" / (clip.id + ".json")).string(),
                               fault("frames", std::to_string(track.frames), "",
                                     fmt::format("{}, as plan.json has them", clip.frames))));
 }
 
-/// The disk space and the memory of a run are reckoned for the config's pictures.
-void check_camera(const CameraIntrinsics& camera, const Config& config, const Path& file) {
-  if (camera.width_px == config.camera.width_px && camera.height_px == config.camera.height_px) return;
-  throw DataError(fmt::format(
-      "{}: {}", file.string(),
-      fault("camera", fmt::format("{} x {}", camera.width_px, camera.height_px), "px",
-            fmt::format("{} x {}, as in the config", config.camera.width_px, config.camera.height_px))));
+/// The disk space and the memory of a run are reckoned for the dataset's pictures.
+void check_camera(const CameraIntrinsics& camera, const DatasetSpec& spec, const Path& file) {
+  if (camera.width_px == spec.width_px && camera.height_px == spec.height_px) return;
+  throw DataError(
+      fmt::format("{}: {}", file.string(),
+                  fault("camera", fmt::format("{} x {}", camera.width_px, camera.height_px), "px",
+                        fmt::format("{} x {}, as in the config", spec.width_px, spec.height_px))));
 }
 
 }  // namespace
@@ -94,8 +93,8 @@ ManifestFrame manifest_frame_of(const BakedScene& scene, const BakedMoment& now,
   return frame;
 }
 
-Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const ClipPlan& clip,
-                     const Config& config, const ClipSettings& settings) {
+Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const DatasetSpec& spec,
+                     const ClipSpec& clip) {
   Manifest manifest;
   manifest.clip = clip.id;
   manifest.of_flight = clip.of_flight;
@@ -103,12 +102,12 @@ Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const Cli
   manifest.seed = scene.seed;
   manifest.frame_rate_hz = clip.frame_rate_hz;
   manifest.layer = "Scene";
-  if (config.actor_layer) manifest.actor_layer = "Actors";
+  if (spec.actor_layer) manifest.actor_layer = "Actors";
   manifest.camera = track.camera.value_or(scene.camera);
-  manifest.supersample = config.supersample;
-  if (config.engine == Engine::embree) {
+  manifest.supersample = spec.supersample;
+  if (spec.engine == Engine::embree) {
     if (MirrorIndices(scene).any()) manifest.mirror_layer = kMirrorLayer;
-    manifest.lens = settings.distortion;
+    manifest.lens = clip.settings->distortion;
   } else {  // a pinhole's picture, to which conversion applies the lens, without rays beyond the water
     manifest.overscan_px = scene.view_margin_px;
   }
@@ -126,34 +125,28 @@ Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const Cli
   return manifest;
 }
 
-PlanTracer::PlanTracer(const Path& folder, const Config& config, const DatasetPlan& plan,
-                       const Assets& assets)
+PlanTracer::PlanTracer(const Path& folder, const DatasetSpec& spec, const Assets& assets)
     : folder_(folder),
-      config_(config),
-      plan_(plan),
+      spec_(spec),
       assets_(assets),
       scene_(read_baked_scene(folder, assets)),
       caster_(scene_) {
-  check_camera(scene_.camera, config, folder / "scene.json");
+  check_camera(scene_.camera, spec, folder / "scene.json");
 }
 
-ClipPasses PlanTracer::trace(const std::string& clip, const Path& folder, bool keep) const {
-  BakedTrack track = read_baked_track(folder_, clip, scene_, assets_);
-  const auto planned =
-      std::ranges::find_if(plan_.clips, [&clip](const ClipPlan& one) { return one.id == clip; });
-  check_frames(track, *planned, folder_);
-  if (track.camera) check_camera(*track.camera, config_, folder_ / "tracks" / (clip + ".json"));
-  const ClipSettings& settings = settings_of(config_, config_.clip(clip, "plan: clips"));
-  ClipPasses passes{.manifest = manifest_of(scene_, track, *planned, config_, settings), .folder = folder};
+ClipPasses PlanTracer::trace(const ClipSpec& clip, const Path& folder, bool keep) const {
+  BakedTrack track = read_baked_track(folder_, clip.id, scene_, assets_);
+  check_frames(track, clip, folder_);
+  if (track.camera) check_camera(*track.camera, spec_, folder_ / "tracks" / (clip.id + ".json"));
+  ClipPasses passes{.manifest = manifest_of(scene_, track, spec_, clip), .folder = folder};
   std::optional<Kept> kept;
   if (keep) {
     make_folder(folder);
     write_file_atomically(folder / "manifest.json", to_text(passes.manifest));
     kept = {.folder = folder, .layer = passes.manifest.layer, .actor_layer = passes.manifest.actor_layer};
   }
-  const Sampling sampling = {.supersample = config_.supersample,
-                             .adaptive = config_.adaptive_sampling,
-                             .lens = passes.manifest.lens};
+  const Sampling sampling = {
+      .supersample = spec_.supersample, .adaptive = spec_.adaptive_sampling, .lens = passes.manifest.lens};
   passes.source = std::make_shared<TracedPasses>(caster_, std::move(track), passes.manifest.camera, sampling,
                                                  std::move(kept));
   return passes;

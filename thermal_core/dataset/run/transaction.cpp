@@ -7,27 +7,16 @@
 #include "dataset/run/options.h"
 
 namespace thermal {
-namespace {
 
-std::set<std::string> set_of(const std::vector<std::string>& ids) { return {ids.begin(), ids.end()}; }
-
-}  // namespace
-
-DatasetTransaction::DatasetTransaction(const Layout& layout, const Config& config, Json physics)
-    : DatasetTransaction(layout, config, std::move(physics), config.clips, false) {}
-
-DatasetTransaction::DatasetTransaction(const Layout& layout, const Config& config, Json physics,
-                                       const std::vector<ClipConfig>& clips)
-    : DatasetTransaction(layout, config, std::move(physics), clips, true) {}
-
-DatasetTransaction::DatasetTransaction(const Layout& layout, const Config& config, Json physics,
-                                       const std::vector<ClipConfig>& clips, bool shared)
+DatasetTransaction::DatasetTransaction(const Layout& layout, const Json& document,
+                                       const std::vector<std::string>& clips, Json physics,
+                                       const std::optional<std::vector<std::string>>& own)
     : layout_(layout),
-      own_(set_of(ids_of(clips))),
-      shared_(shared),
-      lock_(shared && layout.scratch.empty() ? FolderLock(layout.root, places_of(config, clips))
-                                             : FolderLock(layout.workplace())) {
-  lock_.in_turn([&] { index_ = open_dataset(layout_, config); });
+      own_(own ? own->begin() : clips.begin(), own ? own->end() : clips.end()),
+      shared_(own.has_value()),
+      lock_(shared_ && layout.scratch.empty() ? FolderLock(layout.root, places_of(*own, clips))
+                                              : FolderLock(layout.workplace())) {
+  lock_.in_turn([&] { index_ = open_dataset(layout_, document, clips); });
   index_.physics = std::move(physics);
 }
 

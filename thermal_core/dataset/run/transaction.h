@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,12 +21,12 @@ class DatasetTransaction {
  public:
   /// Locks the folder, which is created if needed, and reads what is there. TryAgainError if another run has it;
   /// ConfigError if it holds a dataset of another config. Changes nothing yet.
+  /// @param document  of the resolved config
+  /// @param clips  all of its ids
   /// @param physics  the record of the terms: to_json(Budget)
-  DatasetTransaction(const Layout& layout, const Config& config, Json physics);
-
-  /// The same for some clips of the dataset; other runs may make others at the same time.
-  DatasetTransaction(const Layout& layout, const Config& config, Json physics,
-                     const std::vector<ClipConfig>& clips);
+  /// @param own  the clips that this run makes, while others may make others; empty: all, alone
+  DatasetTransaction(const Layout& layout, const Json& document, const std::vector<std::string>& clips,
+                     Json physics, const std::optional<std::vector<std::string>>& own = {});
 
   /// After a fault, without close(): removes incomplete clips and records what was committed. A further fault is not
   /// thrown: the next run detects the missing record, and removes what is left.
@@ -56,9 +57,6 @@ class DatasetTransaction {
   [[nodiscard]] std::vector<LeftOver> close(const std::function<void()>& also = {});
 
  private:
-  DatasetTransaction(const Layout& layout, const Config& config, Json physics,
-                     const std::vector<ClipConfig>& clips, bool shared);
-
   void change(const std::function<void()>& change);
   void learn();
   void record_all();

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
+#include <map>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,8 +14,8 @@
 #include "io/assets.h"
 #include "io/config/draws.h"
 #include "io/config/lens.h"
+#include "io/config/sections.h"
 #include "io/config/sensor.h"
-#include "io/config/weather.h"
 #include "io/json/schema.h"
 
 namespace thermal {
@@ -20,43 +23,49 @@ namespace {
 
 Season season_in(const Json& entry) { return season_of(entry["season"].get<std::string>()); }
 
-/// Null: none of its own.
-SharedSettings own_of(const std::map<std::string, SharedSettings>& all, const std::string& id) {
-  const auto found = all.find(id);
-  return found == all.end() ? nullptr : found->second;
+/// Of a clip or a flight; clips whose passes exist may have none.
+double speed_m_s_in(const Json& entry) {
+  return entry.value(Json::json_pointer("/flight/speed_m_s"), ClipSpec().speed_m_s);
 }
 
-ClipConfig read_clip(const Json& json, const Config& config) {
-  ClipConfig clip = {.id = json["id"],
-                     .season = season_in(json),
-                     .frames = json["frames"],
-                     .frame_rate_hz = json["frame_rate_hz"],
-                     .start_s = json["start_s"]};
-  clip.own = own_of(config.own_of_clips, clip.id);
-  if (!clip.own && json.contains("of_flight")) clip.own = own_of(config.own_of_flights, json["of_flight"]);
-  return clip;
+ClipSpec read_clip(const Json& json, SharedSettings settings) {
+  return {.id = json["id"],
+          .season = season_in(json),
+          .frames = json["frames"],
+          .frame_rate_hz = json["frame_rate_hz"],
+          .start_s = json["start_s"],
+          .of_flight = json.value("of_flight", ""),
+          .speed_m_s = speed_m_s_in(json),
+          .settings = std::move(settings)};
 }
 
-/// One fault for each entry as the config lists them.
-void check_ids(const std::vector<std::string>& ids, const std::vector<std::string>& places,
-               std::vector<std::string>& faults) {
+FlightSpec read_flight(const Json& json, SharedSettings settings) {
+  return {.id = json["id"],
+          .season = season_in(json),
+          .start_s = json.value("start_s", 0.0),
+          .duration_s = json.value("duration_s", 0.0),
+          .speed_m_s = speed_m_s_in(json),
+          .settings = std::move(settings)};
+}
+
+/// Puts the sections of a list's entries back, resolved, and reads the entries with what they mean. Of ids that are not
+/// unique, one fault for each entry as the config lists them.
+template <typename Spec>
+std::vector<Spec> read_entries(const Json& own, const std::vector<std::string>& places,
+                               SectionResolver& sections, Json& entries,
+                               Spec (*read)(const Json& entry, SharedSettings settings),
+                               std::vector<std::string>& faults) {
+  std::vector<Spec> specs;
   std::set<std::string> seen;
   std::set<std::string> at_fault;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (seen.insert(ids[i]).second || !at_fault.insert(places[i]).second) continue;
-    faults.push_back(fault(places[i] + ".id", fmt::format("\"{}\"", ids[i]), "", "each id once"));
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    const SectionResolver::Own& found = sections.of(own[k], season_in(entries[k]), places[k]);
+    entries[k].update(found.changes);
+    const Spec& spec = specs.emplace_back(read(entries[k], found.settings));
+    if (!seen.insert(spec.id).second && at_fault.insert(places[k]).second)
+      faults.push_back(fault(places[k] + ".id", fmt::format("\"{}\"", spec.id), "", "each id once"));
   }
-}
-
-/// Checks that there is something to make, and that ids are unique.
-void check_flown(const std::vector<std::string>& flights, const std::vector<ClipConfig>& clips,
-                 EntryNames& places, std::vector<std::string>& faults) {
-  if (clips.empty() && flights.empty())
-    faults.emplace_back("clips and flights are empty; expected at least one of either");
-  std::vector<std::string> ids;
-  for (const ClipConfig& clip : clips) ids.push_back(clip.id);
-  check_ids(ids, places["clips"], faults);
-  check_ids(flights, places["flights"], faults);
+  return specs;
 }
 
 /// One step of a setting's key: "clips[0]" is the member "clips", then entry 0.
@@ -101,6 +110,13 @@ void root_in_flight(Json& entry, const char* place, const Path& folder) {
   for (Json& one : flight["choice"]) root_file(one, place, folder);
 }
 
+/// Calls `act` with the clips and flights of a document.
+void for_each_flown(Json& document, const std::function<void(Json& one)>& act) {
+  for (const char* flown : {"clips", "flights"})
+    if (document.contains(flown))
+      for (Json& one : document[flown]) act(one);
+}
+
 /// Anything that is not JSON is a string; the schema reports it if it is wrong.
 Json parse_value(const std::string& text) {
   try {
@@ -108,28 +124,6 @@ Json parse_value(const std::string& text) {
   } catch (const ConfigError&) {
     return Json(text);
   }
-}
-
-/// Puts the sections of a list's entries back, resolved. Returns the settings of those that have their own, by id.
-std::map<std::string, SharedSettings> put_back_sections(const Json& own,
-                                                        const std::vector<std::string>& places,
-                                                        SectionResolver& sections, Json& entries) {
-  std::map<std::string, SharedSettings> settings;
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    if (own[k].empty()) continue;
-    const SectionResolver::Own& found = sections.of(own[k], season_in(entries[k]), places[k]);
-    entries[k].update(found.changes);
-    settings[entries[k]["id"]] = found.settings;
-  }
-  return settings;
-}
-
-/// Of the dataset, and of the clips and flights that have settings of their own.
-std::vector<Lens> lenses_of(const Config& config) {
-  std::vector<Lens> lenses = {{config.camera, config.distortion}};
-  for (const auto* own : {&config.own_of_clips, &config.own_of_flights})
-    for (const auto& [id, settings] : *own) lenses.push_back({settings->camera, settings->distortion});
-  return lenses;
 }
 
 /// Puts an engine in the place of `auto`: the ray caster, which draws all but passes that extend beyond the picture.
@@ -151,67 +145,36 @@ void fill_sampling(Json& render, bool physical) {
   if (!render.contains("sampling")) render["sampling"] = by_default ? "adaptive" : "full";
 }
 
-/// As the config has it; Table 1's line says nothing of an inversion.
-Weather given_weather(const Config& config, const ClipConfig& clip) {
-  Weather weather = settings_of(config, clip).weather.at(static_cast<std::size_t>(clip.season));
-  weather.inversion_by_balance = weather.inversion_by_balance && config.heat_balance;
-  return weather;
+/// A clip that is cut from a flight, as a document has it.
+Json document_of(const ClipSpec& clip, const Json& flight) {
+  Json document = {{"id", clip.id},
+                   {"start_s", clip.start_s},
+                   {"frames", clip.frames},
+                   {"frame_rate_hz", clip.frame_rate_hz},
+                   {"of_flight", clip.of_flight}};
+  for (const char* shared : {"season", "flight", "drawn"})
+    if (flight.contains(shared)) document[shared] = flight[shared];
+  for (const char* section : kClipSections)
+    if (flight.contains(section)) document[section] = flight[section];
+  return document;
+}
+
+/// The entries of a list by their ids.
+std::map<std::string, Json> by_id(Json entries) {
+  std::map<std::string, Json> found;
+  for (Json& entry : entries) {
+    const std::string id = entry["id"];
+    found[id] = std::move(entry);
+  }
+  return found;
 }
 
 }  // namespace
 
-const ClipConfig& Config::clip(const std::string& id, const std::string& where) const {
-  const auto found = std::ranges::find(clips, id, &ClipConfig::id);
-  if (found != clips.end()) return *found;
-  std::vector<std::string> known;
-  for (const ClipConfig& clip : clips) known.push_back(clip.id);
-  throw ConfigError(fault(where, fmt::format("\"{}\"", id), "", "one of " + list_names(known)) +
-                    did_you_mean(id, known));
-}
-
-const ClipSettings& settings_of(const Config& config, const ClipConfig& clip) {
-  return clip.own ? *clip.own : config;
-}
-
-Weather weather_of(const Config& config, const ClipConfig& clip) {
-  Weather weather = given_weather(config, clip);
-  if (!config.heat_balance) return weather;
-  return at_moment(weather, clip.start_s + 0.5 * (clip.frames - 1) / clip.frame_rate_hz);
-}
-
-Weather weather_at_start(const Config& config, const ClipConfig& clip) {
-  const Weather weather = given_weather(config, clip);
-  return config.heat_balance ? at_moment(weather, 0) : weather;
-}
-
-std::vector<FlownWeather> flown_weather(const Config& config) {
-  std::vector<FlownWeather> flown;
-  const auto add = [&](Season season, const SharedSettings& own, double start_s, double duration_s) {
-    const Weather& weather = (own ? *own : config).weather.at(static_cast<std::size_t>(season));
-    auto found = std::ranges::find_if(
-        flown, [&](const FlownWeather& one) { return one.season == season && one.weather == weather; });
-    if (found == flown.end())
-      found = flown.insert(found, {.season = season, .weather = weather, .hours = {}});
-    const double start_h = weather.solar_h + start_s / 3600;
-    found->hours.emplace_back(start_h, start_h + duration_s / 3600);
-  };
-  for (const ClipConfig& clip : config.clips)
-    add(clip.season, clip.own, clip.start_s, clip.frames / clip.frame_rate_hz);
-  for (const Json& flight : config.resolved["flights"]) {
-    add(season_in(flight), own_of(config.own_of_flights, flight["id"]), flight.value("start_s", 0.0),
-        flight.value("duration_s", 0.0));
-  }
-  std::ranges::stable_sort(flown, {}, &FlownWeather::season);
-  return flown;
-}
-
 void set_season(Json& document, const Json& season) {
-  for (const char* flown : {"clips", "flights"}) {
-    if (!document.contains(flown)) continue;
-    for (Json& one : document[flown]) {
-      if (one.is_object()) one["season"] = season;  // the schema reports entries of other types
-    }
-  }
+  for_each_flown(document, [&](Json& one) {
+    if (one.is_object()) one["season"] = season;  // the schema reports entries of other types
+  });
 }
 
 void apply_setting(Json& document, const std::string& assignment) {
@@ -235,43 +198,31 @@ void root_files(Json& document, const Path& folder) {
   root_resolved_files(document, folder);
   root_file(document, "/scene/terrain/heightmap/file", folder);
   root_file(document, "/scene/terrain/density_map/file", folder);
-  for (const char* flown : {"clips", "flights"}) {
-    if (!document.contains(flown)) continue;
-    for (Json& one : document[flown]) root_in_flight(one, "/waypoints/file", folder);
-  }
+  for_each_flown(document, [&](Json& one) { root_in_flight(one, "/waypoints/file", folder); });
 }
 
 void root_resolved_files(Json& document, const Path& folder) {
   root_file(document, "/camera/calibration", folder);
-  for (const char* flown : {"clips", "flights"}) {
-    if (!document.contains(flown)) continue;
-    for (Json& one : document[flown]) {
-      root_file(one, "/camera/calibration", folder);
-      root_in_flight(one, "/views/file", folder);
-    }
-  }
+  for_each_flown(document, [&](Json& one) {
+    root_file(one, "/camera/calibration", folder);
+    root_in_flight(one, "/views/file", folder);
+  });
 }
 
-Json cut_from(const Json& flight, Json clip) {
-  clip["of_flight"] = flight.at("id");
-  for (const char* shared : {"season", "flight", "drawn"})
-    if (flight.contains(shared)) clip[shared] = flight[shared];
-  for (const char* section : kClipSections)
-    if (flight.contains(section)) clip[section] = flight[section];
-  return clip;
-}
-
-Config with_clips(Config config, const Json& clips) {
-  for (const Json& clip : clips) {
-    config.clips.push_back(read_clip(clip, config));
-    config.resolved["clips"].push_back(clip);
+ResolvedConfig with_clips(ResolvedConfig config, std::vector<ClipSpec> clips) {
+  std::map<std::string, Json> own = by_id(std::exchange(config.document["clips"], Json::array()));
+  const std::map<std::string, Json> flights = by_id(std::exchange(config.document["flights"], Json::array()));
+  for (const ClipSpec& clip : clips) {
+    const auto found = own.find(clip.id);
+    config.document["clips"].push_back(found != own.end() ? std::move(found->second)
+                                                          : document_of(clip, flights.at(clip.of_flight)));
   }
-  config.flights.clear();
-  config.resolved["flights"] = Json::array();
+  config.spec.clips = std::move(clips);
+  config.spec.flights.clear();
   return config;
 }
 
-Config resolve_config(Json document, const std::string& name, const Assets& assets) {
+ResolvedConfig resolve_config(Json document, const std::string& name, const Assets& assets) {
   const Json schema = assets.schema("config");
   DrawnConfig drawn = draw_config(std::move(document), schema, name);
   document = std::move(drawn.document);
@@ -282,43 +233,41 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
   throw_faults(faults, name);
   check_weather(document["weather"], {Season::winter, Season::summer}, faults);
   throw_faults(faults, name);
-  Config config;
-  static_cast<ClipSettings&>(config) = read_settings(document, name + ": ", assets);
-  config.name = document["name"];
-  config.seed = document["seed"];
-  config.width_px = document["camera"]["width_px"];
-  config.height_px = document["camera"]["height_px"];
-  config.physical = document["sensor"]["model"] == "physical";
+  DatasetSpec spec = {.name = document["name"],
+                      .seed = document["seed"],
+                      .settings = read_settings(document, name + ": ", assets),
+                      .width_px = document["camera"]["width_px"],
+                      .height_px = document["camera"]["height_px"],
+                      .physical = document["sensor"]["model"] == "physical"};
   if (!document["scene"].contains("temperatures"))
-    document["scene"]["temperatures"] = config.physical ? "heat_balance" : "table_1";
-  config.heat_balance = document["scene"]["temperatures"] == "heat_balance";
-  SectionResolver sections(drawn.given, document, schema, name, assets);
-  config.own_of_clips =
-      put_back_sections(drawn.own_clips, drawn.places["clips"], sections, document["clips"]);
-  config.own_of_flights =
-      put_back_sections(drawn.own_flights, drawn.places["flights"], sections, document["flights"]);
-  for (const Json& clip : document["clips"]) config.clips.push_back(read_clip(clip, config));
-  for (const Json& flight : document["flights"]) config.flights.push_back(flight["id"]);
-  check_flown(config.flights, config.clips, drawn.places, faults);
-  check_intrinsics(config.camera, faults);
-  config.engine_reason = choose_engine(document["render"]);
-  fill_sampling(document["render"], config.physical);
-  const Json& render = document["render"];
+    document["scene"]["temperatures"] = spec.physical ? "heat_balance" : "table_1";
+  spec.heat_balance = document["scene"]["temperatures"] == "heat_balance";
+  SectionResolver sections(drawn.given, document, spec.settings, schema, name, assets);
+  const auto read_list = [&](const char* list, const Json& own, auto read) {
+    return read_entries(own, drawn.places[list], sections, document[list], read, faults);
+  };
+  spec.clips = read_list("clips", drawn.own_clips, read_clip);
+  spec.flights = read_list("flights", drawn.own_flights, read_flight);
+  if (spec.clips.empty() && spec.flights.empty())
+    faults.emplace_back("clips and flights are empty; expected at least one of either");
+  check_intrinsics(spec.settings->camera, faults);
+  Json& render = document["render"];
+  spec.engine_reason = choose_engine(render);
+  fill_sampling(render, spec.physical);
   if (render["sampling"] == "adaptive" && render["engine"] != "embree")
     faults.emplace_back("render.sampling = \"adaptive\"; expected \"full\", or render.engine = \"embree\"");
   throw_faults(faults, name);
-  const int needed_px = fill_overscan(document, lenses_of(config), faults);
+  const int needed_px = fill_overscan(document, spec, faults);
   throw_faults(faults, name);
-  config.overscan_px = document["render"]["overscan_px"];
-  config.view_margin_px = std::max(config.overscan_px, needed_px);
-  config.supersample = document["render"]["supersample"];
-  config.actor_layer = document["render"]["actor_layer"];
-  config.poses_all = document["render"]["posed_actors"] == "all";
-  config.engine = document["render"]["engine"] == "embree" ? Engine::embree : Engine::blender;
-  config.adaptive_sampling = document["render"]["sampling"] == "adaptive";
+  spec.overscan_px = render["overscan_px"];
+  spec.view_margin_px = std::max(spec.overscan_px, needed_px);
+  spec.supersample = render["supersample"];
+  spec.actor_layer = render["actor_layer"];
+  spec.poses_all = render["posed_actors"] == "all";
+  spec.engine = render["engine"] == "embree" ? Engine::embree : Engine::blender;
+  spec.adaptive_sampling = render["sampling"] == "adaptive";
   document.erase("$schema");
-  config.resolved = std::move(document);
-  return config;
+  return {.document = std::move(document), .spec = std::move(spec)};
 }
 
 std::string expected_config(const Json& here, const Json& there) {

@@ -12,8 +12,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "io/config/clip_settings.h"
 #include "io/config/distribution.h"
+#include "io/config/sections.h"
 #include "io/config/views_file.h"
 
 namespace thermal {
@@ -291,8 +291,7 @@ class Draws {
   const Json& schema_;
   const std::string& name_;
   std::uint32_t seed_;
-  DrawnConfig found_ = {
-      .document = {}, .given = Json::object(), .own_clips = {}, .own_flights = {}, .places = {}};
+  DrawnConfig found_;
   Json random_;  ///< what each clip draws of the dataset's sections
   bool is_counted_ = false;
   std::map<Path, std::vector<View>> views_;
@@ -301,12 +300,7 @@ class Draws {
 }  // namespace
 
 DrawnConfig draw_config(Json document, const Json& schema, const std::string& name) {
-  if (!document.is_object())  // the schema reports it
-    return {.document = std::move(document),
-            .given = Json::object(),
-            .own_clips = {},
-            .own_flights = {},
-            .places = {}};
+  if (!document.is_object()) return {.document = std::move(document)};  // the schema reports it
   return Draws(std::move(document), schema, name).draw();
 }
 

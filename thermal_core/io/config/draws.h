@@ -15,12 +15,12 @@ void overlay(Json& into, const Json& changes);
 
 /// A config after its draws: clips with a count are listed one by one, and all values are given.
 struct DrawnConfig {
-  Json document;   ///< without the sections of clips and flights
-  Json given;      ///< its sections of the dataset, without those values that each clip draws
-  Json own_clips;  ///< sections of each clip, with what it has drawn of the dataset's
-  Json own_flights;
-  EntryNames
-      places;  ///< of clips and flights, as the config lists them: `clips[2]`, `clips[2] ("p", 20 clips)`
+  Json document = {};           ///< without the sections of clips and flights
+  Json given = Json::object();  ///< its sections of the dataset, without those values that each clip draws
+  Json own_clips = {};          ///< sections of each clip, with what it has drawn of the dataset's
+  Json own_flights = {};
+  EntryNames places =
+      {};  ///< of clips and flights, as the config lists them: `clips[2]`, `clips[2] ("p", 20 clips)`
 };
 
 /// Draws all distributions of a config's document before it is checked: those of `scene`, and of what all clips share,

@@ -121,11 +121,16 @@ void check_intrinsics(const CameraIntrinsics& camera, std::vector<std::string>& 
         "a tenth to ten times camera.fx_px");
 }
 
-int fill_overscan(Json& document, const std::vector<Lens>& lenses, std::vector<std::string>& faults) {
+int fill_overscan(Json& document, const DatasetSpec& spec, std::vector<std::string>& faults) {
   int needed_px = 0;
+  const auto add = [&](const ClipSettings& one) {
+    needed_px = std::max(needed_px, overscan_px(one.camera, one.distortion));
+  };
   try {
-    for (const Lens& lens : lenses)
-      needed_px = std::max(needed_px, overscan_px(lens.camera, lens.distortion));
+    add(*spec.settings);
+    for (const ClipSpec& clip : spec.clips)
+      if (clip.settings != spec.settings) add(*clip.settings);
+    for (const FlightSpec& flight : spec.flights) add(*flight.settings);
   } catch (const ConfigError& error) {
     faults.emplace_back(error.what());
     return 0;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "io/config/spec.h"
 #include "io/json/file.h"
 #include "scene/camera_model.h"
 
@@ -23,15 +24,9 @@ void apply_lens(Json& document, const Json& schema, std::vector<std::string>& fa
 /// Adds a fault if the principal point is outside the picture, or one focal length more than ten times the other.
 void check_intrinsics(const CameraIntrinsics& camera, std::vector<std::string>& faults);
 
-/// A camera behind its lens.
-struct Lens {
-  CameraIntrinsics camera;
-  LensDistortion distortion;
-};
-
 /// Writes what the lenses of a dataset need as the config's render.overscan_px, where that says nothing of it: nothing
 /// with the engine embree, whose rays follow the lens. Adds a fault if it says too little, or anything in vain, or if no
 /// overscan is enough. Returns how much pinholes' pictures need for the lenses, 0 after a fault of a lens.
-int fill_overscan(Json& document, const std::vector<Lens>& lenses, std::vector<std::string>& faults);
+int fill_overscan(Json& document, const DatasetSpec& spec, std::vector<std::string>& faults);
 
 }  // namespace thermal

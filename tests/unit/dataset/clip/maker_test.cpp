@@ -10,6 +10,7 @@
 #include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
+#include "support/own_settings.h"
 #include "support/test_folder.h"
 #include "support/tiny_clip.h"
 
@@ -117,7 +118,7 @@ TEST_CASE(
   const Workplace place;
   const ClipRecord plain = place.make();
   ClipTask task = place.task("coded");
-  task.codec = VideoCodecSettings{.name = "mjpeg", .bitrate_kbit_s = 20};
+  own_settings(task).codec = VideoCodecSettings{.name = "mjpeg", .bitrate_kbit_s = 20};
   const ClipRecord coded = place.make(task);
   for (const auto& [name, sum] : plain.files) {
     if (name == "preview.mp4") continue;  // lossy, and the encoder's own
@@ -272,8 +273,8 @@ std::vector<ClipTask> three_tasks(const Workplace& place) {
   std::vector<ClipTask> tasks = {place.task("one"), place.task("two"), place.task("three")};
   tasks[1].clip.season = Season::summer;
   tasks[1].seed = 7;
-  tasks[2].sensor.optics.blur_sigma_px = 0;
-  tasks[2].sensor.agc.mode = AgcMode::plateau;
+  own_settings(tasks[2]).sensor.optics.blur_sigma_px = 0;
+  own_settings(tasks[2]).sensor.agc.mode = AgcMode::plateau;
   return tasks;
 }
 
@@ -327,7 +328,7 @@ TEST_CASE("An impossible request of a task is reported with its variant") {
   const Workplace place;
   std::vector<ClipTask> tasks = three_tasks(place);
   tasks[1].variant = "list.json: variants[1] (barrel)";
-  tasks[1].distortion.k1 = -0.1;
+  own_settings(tasks[1]).distortion.k1 = -0.1;
   CHECK_THAT(message_of<ConfigError>([&] { (void)place.make_all(tasks); }),
              StartsWith("list.json: variants[1] (barrel): clip a: overscan_px = 0 px; expected at least "));
 }

@@ -7,6 +7,7 @@
 #include "io/pass_reader.h"
 #include "support/assets.h"
 #include "support/catch.h"
+#include "support/own_settings.h"
 #include "support/test_folder.h"
 #include "support/tiny_clip.h"
 
@@ -35,12 +36,12 @@ std::size_t scenes_of(const std::vector<ClipTask>& tasks) {
 std::vector<ClipTask> tasks_of_one_scene() {
   std::vector<ClipTask> tasks(3);
   tasks[1].seed = 7;
-  tasks[1].sensor.optics.blur_sigma_px = 0;
-  tasks[1].sensor.noise.amount = 0;
-  tasks[2].labels.ignore_below_area_px = 9;
-  tasks[2].sensor.netd_mk = 200;
-  tasks[2].sensor.agc.mode = AgcMode::plateau;
-  tasks[2].sensor.shutter.interval_s = 0.2;
+  own_settings(tasks[1]).sensor.optics.blur_sigma_px = 0;
+  own_settings(tasks[1]).sensor.noise.amount = 0;
+  own_settings(tasks[2]).labels.ignore_below_area_px = 9;
+  own_settings(tasks[2]).sensor.netd_mk = 200;
+  own_settings(tasks[2]).sensor.agc.mode = AgcMode::plateau;
+  own_settings(tasks[2]).sensor.shutter.interval_s = 0.2;
   return tasks;
 }
 
@@ -58,9 +59,9 @@ TEST_CASE(
   };
   CHECK_FALSE(own([](ClipTask&) {}));
   CHECK(own([](ClipTask& task) { task.clip.season = Season::summer; }));
-  CHECK(own([](ClipTask& task) { task.sensor.response = SpectralResponse::flat(7.5, 14); }));
-  CHECK(own([](ClipTask& task) { task.sensor.radiance = RadianceModel::script; }));
-  CHECK(own([](ClipTask& task) { task.sensor.agc.mode = AgcMode::table_max; }));
+  CHECK(own([](ClipTask& task) { own_settings(task).sensor.response = SpectralResponse::flat(7.5, 14); }));
+  CHECK(own([](ClipTask& task) { own_settings(task).sensor.radiance = RadianceModel::script; }));
+  CHECK(own([](ClipTask& task) { own_settings(task).sensor.agc.mode = AgcMode::table_max; }));
   CHECK(own([](ClipTask& task) { task.physics.reset(); }));
   CHECK(own([](ClipTask& task) { task.physics->seed = 2; }));
   CHECK(own([](ClipTask& task) { task.physics->response = SpectralResponse({{8, 1}, {14, 0.5}}); }));

@@ -9,15 +9,15 @@ using namespace thermal;
 
 namespace {
 
-Config five_clips() {
-  Config config;
-  for (const char* id : {"a", "b", "c", "d", "e"}) config.clips.push_back({.id = id});
-  return config;
+DatasetSpec five_clips() {
+  DatasetSpec spec;
+  for (const char* id : {"a", "b", "c", "d", "e"}) spec.clips.push_back({.id = id});
+  return spec;
 }
 
 std::string chosen(const std::vector<std::string>& ids, const Shard& shard) {
   std::string names;
-  for (const ClipConfig& clip : choose_clips(five_clips(), ids, shard)) names += clip.id;
+  for (const ClipSpec& clip : choose_clips(five_clips(), ids, shard)) names += clip.id;
   return names;
 }
 

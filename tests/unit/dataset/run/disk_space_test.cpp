@@ -9,13 +9,13 @@ using namespace thermal;
 
 namespace {
 
-Config small_pictures(int supersample) {
-  Config config;
-  config.width_px = 100;
-  config.height_px = 50;
-  config.overscan_px = 5;
-  config.supersample = supersample;
-  return config;
+DatasetSpec small_pictures(int supersample) {
+  DatasetSpec spec;
+  spec.width_px = 100;
+  spec.height_px = 50;
+  spec.overscan_px = 5;
+  spec.supersample = supersample;
+  return spec;
 }
 
 std::string fault_of(std::int64_t left_bytes, std::int64_t needed_bytes) {
@@ -25,7 +25,7 @@ std::string fault_of(std::int64_t left_bytes, std::int64_t needed_bytes) {
 }  // namespace
 
 TEST_CASE("Before the first frame a clip needs the worst case: 40 bytes per pixel of passes, 4 of pictures") {
-  const ClipConfig clip = {.id = "down", .frames = 10};
+  const ClipSpec clip = {.id = "down", .frames = 10};
   CHECK(space_for(small_pictures(1), clip, {}).needed_bytes() == 10 * (40 * 110 * 60 + 4 * 100 * 50));
   CHECK(space_for(small_pictures(3), clip, {}).needed_bytes() == 10 * (40 * 330 * 180 + 4 * 100 * 50));
   CHECK(space_for(small_pictures(1), clip, {.pictures = false}).needed_bytes() == 10 * 40 * 110 * 60);

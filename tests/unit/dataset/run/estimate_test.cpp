@@ -7,21 +7,21 @@ using namespace thermal;
 
 namespace {
 
-Config config_of(Engine engine, int supersample, bool adaptive) {
-  Config config;
-  config.engine = engine;
-  config.supersample = supersample;
-  config.adaptive_sampling = adaptive;
-  return config;
+DatasetSpec spec_of(Engine engine, int supersample, bool adaptive) {
+  DatasetSpec spec;
+  spec.engine = engine;
+  spec.supersample = supersample;
+  spec.adaptive_sampling = adaptive;
+  return spec;
 }
 
 /// Seconds that a frame adds.
-double frame_s(const Config& config) {
-  return (estimate_run(config, 1, 1001).seconds - estimate_run(config, 1, 1).seconds) / 1000;
+double frame_s(const DatasetSpec& spec) {
+  return (estimate_run(spec, 1, 1001).seconds - estimate_run(spec, 1, 1).seconds) / 1000;
 }
 
 double frame_s(Engine engine, int supersample, bool adaptive = false) {
-  return frame_s(config_of(engine, supersample, adaptive));
+  return frame_s(spec_of(engine, supersample, adaptive));
 }
 
 }  // namespace
@@ -43,16 +43,16 @@ TEST_CASE("Adaptive sampling takes less time for rays, but no less at one ray pe
 }
 
 TEST_CASE("The start counts once, clips and overscan add to it, and disk space is that of the frames") {
-  Config config = config_of(Engine::embree, 1, false);
-  CHECK(estimate_run(config, 0, 0).seconds == 15);
-  CHECK_THAT(estimate_run(config, 10, 0).seconds, WithinRel(16.0, 1e-6));
-  const double plain = frame_s(config);
-  const double bytes = estimate_run(config, 1, 100).bytes;
-  config.overscan_px = 64;
-  CHECK_THAT(frame_s(config) - 0.012, WithinRel((plain - 0.012) * 768 / 640 * 640 / 512, 1e-6));
-  CHECK(estimate_run(config, 1, 100).bytes == bytes);
-  config.engine = Engine::blender;
-  CHECK(estimate_run(config, 1, 100).bytes == bytes);
+  DatasetSpec spec = spec_of(Engine::embree, 1, false);
+  CHECK(estimate_run(spec, 0, 0).seconds == 15);
+  CHECK_THAT(estimate_run(spec, 10, 0).seconds, WithinRel(16.0, 1e-6));
+  const double plain = frame_s(spec);
+  const double bytes = estimate_run(spec, 1, 100).bytes;
+  spec.overscan_px = 64;
+  CHECK_THAT(frame_s(spec) - 0.012, WithinRel((plain - 0.012) * 768 / 640 * 640 / 512, 1e-6));
+  CHECK(estimate_run(spec, 1, 100).bytes == bytes);
+  spec.engine = Engine::blender;
+  CHECK(estimate_run(spec, 1, 100).bytes == bytes);
   CHECK_THAT(bytes, WithinRel(640.0 * 512 * 2.2 * 100, 1e-6));
 }
 

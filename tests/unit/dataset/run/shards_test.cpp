@@ -10,17 +10,17 @@ using namespace thermal;
 
 namespace {
 
-Config clips_of(const std::vector<int>& frames) {
-  Config config;
+DatasetSpec clips_of(const std::vector<int>& frames) {
+  DatasetSpec spec;
   for (const int count : frames)
-    config.clips.push_back({.id = std::to_string(config.clips.size()), .frames = count});
-  return config;
+    spec.clips.push_back({.id = std::to_string(spec.clips.size()), .frames = count});
+  return spec;
 }
 
-std::vector<double> loads_of(const Config& config, const std::vector<int>& shards, int count) {
+std::vector<double> loads_of(const DatasetSpec& spec, const std::vector<int>& shards, int count) {
   std::vector<double> loads(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < shards.size(); ++i)
-    loads[static_cast<std::size_t>(shards[i])] += clip_seconds(config, config.clips[i].frames);
+    loads[static_cast<std::size_t>(shards[i])] += clip_seconds(spec, spec.clips[i].frames);
   return loads;
 }
 
@@ -39,11 +39,11 @@ TEST_CASE("A long clip has a shard to itself where the others weigh as much") {
 TEST_CASE("Two shards differ by no more than the longest clip") {
   std::vector<int> frames(100);
   for (std::size_t i = 0; i < frames.size(); ++i) frames[i] = static_cast<int>(1 + (i * 7919) % 541);
-  const Config config = clips_of(frames);
+  const DatasetSpec spec = clips_of(frames);
   for (const int count : {1, 2, 7, 40}) {
-    const std::vector<double> loads = loads_of(config, deal_shards(config, count), count);
+    const std::vector<double> loads = loads_of(spec, deal_shards(spec, count), count);
     const auto [least, most] = std::ranges::minmax(loads);
-    CHECK(most - least <= clip_seconds(config, std::ranges::max(frames)) * (1 + 1e-12));
+    CHECK(most - least <= clip_seconds(spec, std::ranges::max(frames)) * (1 + 1e-12));
   }
 }
 

@@ -24,13 +24,14 @@ ClipRecord make(const DatasetTransaction& transaction, const std::string& id, in
 struct Place {
   TestFolder folder;
   Layout layout{folder / "set"};
-  Config config = two_clips::config();
 
   /// One that has the whole folder.
-  [[nodiscard]] DatasetTransaction whole() const { return {layout, config, Json()}; }
+  [[nodiscard]] DatasetTransaction whole() const {
+    return {layout, two_clips::document(), two_clips::kIds, Json()};
+  }
   /// One that has this clip alone.
   [[nodiscard]] DatasetTransaction only(std::size_t place) const {
-    return {layout, config, Json(), {config.clips[place]}};
+    return {layout, two_clips::document(), two_clips::kIds, Json(), std::vector{two_clips::kIds[place]}};
   }
   [[nodiscard]] Json document() const { return read_json(layout.dataset_json()); }
   [[nodiscard]] std::string status(std::size_t place) const { return document()["clips"][place]["status"]; }
@@ -133,7 +134,7 @@ TEST_CASE("What a killed run left is found or removed when the next one begins")
                           std::filesystem::copy_options::recursive);
   }
   const Layout killed{place.folder / "killed"};
-  DatasetTransaction next(killed, place.config, Json());
+  DatasetTransaction next(killed, two_clips::document(), two_clips::kIds, Json());
   CHECK(next.index().finished.contains("a"));
   CHECK_FALSE(next.index().recorded);
   CHECK(std::filesystem::exists(killed.unfinished_clip("b")));

@@ -27,7 +27,7 @@ Json with_flight() {
   return document;
 }
 
-Config resolved(const Json& document) { return resolve_config(document, "night.json", kAssets); }
+ResolvedConfig resolved(const Json& document) { return resolve_config(document, "night.json", kAssets); }
 
 std::string fault_in(const Json& document) {
   return message_of<ConfigError>([&] { (void)resolved(document); });
@@ -46,79 +46,79 @@ std::string fault_in_setting(const std::string& assignment) {
 }  // namespace
 
 TEST_CASE("The ray caster draws what the config leaves open, but for passes that extend beyond the picture") {
-  const Config open = resolved(least());
-  CHECK(open.engine == Engine::embree);
-  CHECK(open.engine_reason == "the ray caster, which draws all of this config");
-  CHECK(open.resolved["render"]["engine"] == "embree");
-  CHECK(resolved(with_setting("render.overscan_px=0")).engine == Engine::embree);
-  const Config wide = resolved(with_setting("render.overscan_px=8"));
-  CHECK(wide.engine == Engine::blender);
-  CHECK(wide.engine_reason ==
+  const ResolvedConfig open = resolved(least());
+  CHECK(open.spec.engine == Engine::embree);
+  CHECK(open.spec.engine_reason == "the ray caster, which draws all of this config");
+  CHECK(open.document["render"]["engine"] == "embree");
+  CHECK(resolved(with_setting("render.overscan_px=0")).spec.engine == Engine::embree);
+  const ResolvedConfig wide = resolved(with_setting("render.overscan_px=8"));
+  CHECK(wide.spec.engine == Engine::blender);
+  CHECK(wide.spec.engine_reason ==
         "because of render.overscan_px = 8 px: embree draws nothing beyond the picture");
-  CHECK(wide.resolved["render"]["engine"] == "blender");
+  CHECK(wide.document["render"]["engine"] == "blender");
   for (const char* name : {"blender", "embree"}) {
-    const Config named = resolved(with_setting(std::string("render.engine=") + name));
-    CHECK(named.resolved["render"]["engine"] == name);
-    CHECK(named.engine_reason.empty());
+    const ResolvedConfig named = resolved(with_setting(std::string("render.engine=") + name));
+    CHECK(named.document["render"]["engine"] == name);
+    CHECK(named.spec.engine_reason.empty());
   }
-  for (const Config& chosen : {open, wide}) {
-    const Config again = resolved(chosen.resolved);
-    CHECK(again.resolved == chosen.resolved);
-    CHECK(again.engine_reason.empty());
+  for (const ResolvedConfig& chosen : {open, wide}) {
+    const ResolvedConfig again = resolved(chosen.document);
+    CHECK(again.document == chosen.document);
+    CHECK(again.spec.engine_reason.empty());
   }
 }
 
 TEST_CASE("Sampling follows the engine that was chosen") {
   Json physical = with_setting("sensor.model=physical");
   physical["sensor"]["netd_mk"] = 40;
-  CHECK(resolved(physical).adaptive_sampling);
-  CHECK_FALSE(resolved(least()).adaptive_sampling);  // the published model has one sample a pixel
+  CHECK(resolved(physical).spec.adaptive_sampling);
+  CHECK_FALSE(resolved(least()).spec.adaptive_sampling);  // the published model has one sample a pixel
   physical["render"]["overscan_px"] = 8;
-  CHECK_FALSE(resolved(physical).adaptive_sampling);
-  CHECK(resolved(physical).supersample == 4);
+  CHECK_FALSE(resolved(physical).spec.adaptive_sampling);
+  CHECK(resolved(physical).spec.supersample == 4);
   physical["render"]["sampling"] = "adaptive";
   CHECK(fault_in(physical) ==
         R"(night.json: render.sampling = "adaptive"; expected "full", or render.engine = "embree")");
 }
 
 TEST_CASE("What was made by another engine is continued with that one") {
-  const Json here = resolved(least()).resolved;
-  const Json there = resolved(with_setting("render.engine=blender")).resolved;
+  const Json here = resolved(least()).document;
+  const Json there = resolved(with_setting("render.engine=blender")).document;
   CHECK(expected_config(here, there) == "the same config with --set render.engine=blender");
   CHECK(expected_config(here, here) == "the same config");
-  CHECK(expected_config(here, resolved(with_setting("seed=2")).resolved) == "the same config");
+  CHECK(expected_config(here, resolved(with_setting("seed=2")).document) == "the same config");
   CHECK(expected_config(here, Json::object()) == "the same config");
   CHECK(expected_config(here, {{"render", {{"engine", 3}}}}) == "the same config");
 }
 
 TEST_CASE("A minimal config is valid, and all defaults are filled in") {
-  const Config config = resolved(least());
-  CHECK(config.name == "night");
-  CHECK(config.seed == 1);
-  CHECK(config.width_px == 640);
-  CHECK(config.height_px == 512);
-  REQUIRE(config.clips.size() == 2);
-  CHECK(config.clips[1].id == "b");
-  CHECK(config.clips[1].season == Season::summer);
-  CHECK(config.clips[1].frames == 4);
-  CHECK(config.clips[1].frame_rate_hz == 9);
-  CHECK(config.resolved["sensor"]["kelvin_per_count"] == 0.01);
-  CHECK(config.resolved["clips"][0]["flight"]["altitude_m"] == 61);
+  const ResolvedConfig config = resolved(least());
+  CHECK(config.spec.name == "night");
+  CHECK(config.spec.seed == 1);
+  CHECK(config.spec.width_px == 640);
+  CHECK(config.spec.height_px == 512);
+  REQUIRE(config.spec.clips.size() == 2);
+  CHECK(config.spec.clips[1].id == "b");
+  CHECK(config.spec.clips[1].season == Season::summer);
+  CHECK(config.spec.clips[1].frames == 4);
+  CHECK(config.spec.clips[1].frame_rate_hz == 9);
+  CHECK(config.document["sensor"]["kelvin_per_count"] == 0.01);
+  CHECK(config.document["clips"][0]["flight"]["altitude_m"] == 61);
 }
 
 TEST_CASE("Label thresholds are read, and are nearly off by default") {
-  CHECK(resolved(least()).labels == LabelParameters());
+  CHECK(resolved(least()).spec.settings->labels == LabelParameters());
   Json document = least();
   document["labels"] = {
       {"occluded_below_visibility", 0.5}, {"ignore_below_visibility", 0.25}, {"ignore_below_area_px", 12}};
-  CHECK(resolved(document).labels == LabelParameters{.occluded_below_visibility = 0.5,
-                                                     .ignore_below_visibility = 0.25,
-                                                     .ignore_below_area_px = 12});
+  CHECK(resolved(document).spec.settings->labels == LabelParameters{.occluded_below_visibility = 0.5,
+                                                                    .ignore_below_visibility = 0.25,
+                                                                    .ignore_below_area_px = 12});
 }
 
 TEST_CASE("Resolving a resolved config changes nothing") {
-  const Config config = resolved(least());
-  CHECK(resolved(config.resolved).resolved == config.resolved);
+  const ResolvedConfig config = resolved(least());
+  CHECK(resolved(config.document).document == config.document);
 }
 
 TEST_CASE("Every fault has a line starting with the config's name") {
@@ -179,9 +179,9 @@ TEST_CASE("A setting's value is checked like any other") {
 TEST_CASE("An unknown clip is an error with the nearest id") {
   Json document = least();
   document["clips"][0]["id"] = "winter_zigzag";
-  const Config config = resolved(document);
-  CHECK(config.clip("b", "--clips").frames == 4);
-  CHECK(message_of<ConfigError>([&] { (void)config.clip("winter_zigzg", "--clips"); }) ==
+  const ResolvedConfig config = resolved(document);
+  CHECK(config.spec.clip("b", "--clips").frames == 4);
+  CHECK(message_of<ConfigError>([&] { (void)config.spec.clip("winter_zigzg", "--clips"); }) ==
         "--clips = \"winter_zigzg\"; expected one of winter_zigzag, b; did you mean \"winter_zigzag\"?");
 }
 
@@ -190,7 +190,7 @@ TEST_CASE("Maps are relative to the config that names them") {
   document["scene"]["terrain"]["heightmap"] = {{"file", "maps/hill.png"}, {"height_m", {0, 30}}};
   document["scene"]["terrain"]["density_map"] = {{"file", "/abroad/areas.png"}};
   root_files(document, "/ranger");
-  const Json terrain = resolved(document).resolved["scene"]["terrain"];
+  const Json terrain = resolved(document).document["scene"]["terrain"];
   CHECK(terrain["heightmap"]["file"] == "/ranger/maps/hill.png");
   CHECK(terrain["density_map"]["file"] == "/abroad/areas.png");
 }
@@ -207,7 +207,7 @@ TEST_CASE("A mission's file is relative to the config, for clips and for flights
   document["clips"][0]["flight"] = {{"pattern", "waypoints"}, {"waypoints", {{"file", "lake.plan"}}}};
   document["flights"][0]["flight"] = {{"pattern", "waypoints"}, {"waypoints", {{"file", "/abroad/log.csv"}}}};
   root_files(document, "/ranger");
-  const Json found = resolved(document).resolved;
+  const Json found = resolved(document).document;
   CHECK(found["clips"][0]["flight"]["waypoints"]["file"] == "/ranger/lake.plan");
   CHECK(found["flights"][0]["flight"]["waypoints"]["file"] == "/abroad/log.csv");
 }
@@ -216,7 +216,7 @@ TEST_CASE("A view is shorthand for a height and an angle, which can be overridde
   Json document = least();
   document["clips"][0]["flight"] = {{"pattern", "zigzag"}, {"view", "122m_oblique"}};
   document["clips"][1]["flight"] = {{"pattern", "zigzag"}, {"view", "122m_oblique"}, {"look_angle_deg", 60}};
-  const Json clips = resolved(document).resolved["clips"];
+  const Json clips = resolved(document).document["clips"];
   CHECK(clips[0]["flight"]["altitude_m"] == 122);
   CHECK(clips[0]["flight"]["look_angle_deg"] == 45);
   CHECK(clips[1]["flight"]["altitude_m"] == 122);
@@ -232,7 +232,7 @@ TEST_CASE("A setting whose value is not valid JSON is a string") {
 TEST_CASE("A config of flights needs no clips, and one with neither is an error") {
   Json document = with_flight();
   document.erase("clips");
-  CHECK(resolved(document).clips.empty());
+  CHECK(resolved(document).spec.clips.empty());
   document.erase("flights");
   CHECK(fault_in(document) == "night.json: clips and flights are empty; expected at least one of either");
 }
@@ -260,28 +260,31 @@ TEST_CASE("An entry that is neither clip nor flight has no season, and is still 
 }
 
 TEST_CASE("The clips of flights follow a config's own") {
-  const Config config = resolved(with_flight());
-  Json clip = config.resolved["clips"][0];
-  clip["id"] = "long_0000";
-  clip["of_flight"] = "long";
-  clip["frames"] = 7;
-  const Config cut = with_clips(config, Json::array({clip}));
-  REQUIRE(cut.clips.size() == 3);
-  CHECK(cut.clips[2].id == "long_0000");
-  CHECK(cut.clips[2].frames == 7);
-  CHECK(cut.resolved["clips"][2] == clip);
-  CHECK(cut.resolved["flights"].empty());
-  CHECK(resolved(cut.resolved).resolved == cut.resolved);
+  const ResolvedConfig config = resolved(with_flight());
+  std::vector<ClipSpec> clips = config.spec.clips;
+  clips.push_back(config.spec.flight("long")->cut({.id = "long_0000", .frames = 7, .start_s = 2}));
+  const ResolvedConfig cut = with_clips(config, clips);
+  REQUIRE(cut.spec.clips.size() == 3);
+  CHECK(cut.spec.clips[2].season == Season::winter);
+  CHECK(cut.spec.clips[2].settings == config.spec.flights[0].settings);
+  CHECK(cut.spec.flights.empty());
+  CHECK(cut.document["clips"][1] == config.document["clips"][1]);
+  Json clip = {
+      {"id", "long_0000"}, {"start_s", 2.0}, {"frames", 7}, {"frame_rate_hz", 9.0}, {"of_flight", "long"}};
+  clip.update({{"season", "winter"}, {"flight", config.document["flights"][0]["flight"]}});
+  CHECK(cut.document["clips"][2] == clip);
+  CHECK(cut.document["flights"].empty());
+  CHECK(resolved(cut.document).document == cut.document);
 }
 
 TEST_CASE("8-bit frames pass through a codec only if the config names one, with its bit rate") {
-  CHECK(resolved(least()).codec == std::nullopt);
-  CHECK_FALSE(resolved(least()).resolved.contains("output"));
+  CHECK(resolved(least()).spec.settings->codec == std::nullopt);
+  CHECK_FALSE(resolved(least()).document.contains("output"));
   Json document = least();
   document["output"] = {{"codec", {{"name", "mpeg4"}, {"bitrate_kbit_s", 800}}}};
-  const Config config = resolved(document);
-  CHECK(config.codec == VideoCodecSettings{.name = "mpeg4", .bitrate_kbit_s = 800});
-  CHECK(config.resolved["output"] == document["output"]);
+  const ResolvedConfig config = resolved(document);
+  CHECK(config.spec.settings->codec == VideoCodecSettings{.name = "mpeg4", .bitrate_kbit_s = 800});
+  CHECK(config.document["output"] == document["output"]);
   document["output"]["codec"]["name"] = "h265";
   CHECK(fault_in(document) ==
         "night.json: output.codec.name = \"h265\"; expected one of h264, mpeg4, mjpeg; did you mean "

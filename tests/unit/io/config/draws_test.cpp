@@ -23,14 +23,14 @@ Json night(const char* changes = "{}") {
   return document;
 }
 
-Config resolved(const Json& document) { return resolve_config(document, "night.json", kAssets); }
+ResolvedConfig resolved(const Json& document) { return resolve_config(document, "night.json", kAssets); }
 
 std::string fault_in(const Json& document) {
   return message_of<ConfigError>([&] { (void)resolved(document); });
 }
 
-const ClipSettings& settings(const Config& config, const char* clip) {
-  return settings_of(config, config.clip(clip, "test"));
+const ClipSettings& settings(const ResolvedConfig& config, const char* clip) {
+  return *config.spec.clip(clip, "test").settings;
 }
 
 }  // namespace
@@ -43,9 +43,9 @@ TEST_CASE("A clip's sections change its settings, and leave the dataset's alone"
   document["clips"][1]["labels"] = {{"ignore_below_area_px", 5}};
   document["clips"][1]["output"]["codec"] = {{"name", "mjpeg"}, {"bitrate_kbit_s", 90}};
   document["clips"][1]["camera"] = {{"focal_length_m", 0.02}};
-  const Config config = resolved(document);
-  CHECK(&settings(config, "a") == &config);
-  CHECK(config.sensor.netd_mk == 40);
+  const ResolvedConfig config = resolved(document);
+  CHECK(config.spec.clips[0].settings == config.spec.settings);
+  CHECK(config.spec.settings->sensor.netd_mk == 40);
   const ClipSettings& own = settings(config, "b");
   CHECK(own.weather[1].air.temperature_k == 280);
   CHECK(own.weather[1].day.night_wind_m_s == 2);
@@ -61,14 +61,14 @@ TEST_CASE("A resolved clip keeps what differs, and resolves to the same again") 
   Json document = night(R"({"output": {"codec": {"name": "h264", "bitrate_kbit_s": 100}}})");
   document["clips"][1]["sensor"] = {{"preset", "flir_vue_pro_640_13mm"}, {"noise", {{"amount", 1}}}};
   document["clips"][1]["output"]["codec"] = nullptr;
-  const Config config = resolved(document);
-  const Json& clip = config.resolved["clips"][1];
+  const ResolvedConfig config = resolved(document);
+  const Json& clip = config.document["clips"][1];
   CHECK(clip["sensor"]["netd_mk"] == 50);
   CHECK_FALSE(clip["sensor"].contains("kelvin_per_count"));
   CHECK(clip["output"] == parse_json(R"({"codec": null})", ""));
   CHECK_FALSE(settings(config, "b").codec);
-  const Config again = resolved(config.resolved);
-  CHECK(again.resolved == config.resolved);
+  const ResolvedConfig again = resolved(config.document);
+  CHECK(again.document == config.document);
   CHECK_FALSE(settings(again, "b").codec);
   CHECK(settings(again, "b").sensor.netd_mk == 50);
 }
@@ -135,16 +135,17 @@ TEST_CASE("Ids that entries with counts share are reported once for each entry")
 }
 
 TEST_CASE("Each clip draws its own values, and numbers are all that is left") {
-  const Config config = resolved(night(R"({"weather": {"air_temperature_k": {"uniform": [270, 290]}}})"));
+  const ResolvedConfig config =
+      resolved(night(R"({"weather": {"air_temperature_k": {"uniform": [270, 290]}}})"));
   const double a_k = settings(config, "a").weather[0].air.temperature_k;
   const double b_k = settings(config, "b").weather[1].air.temperature_k;
   CHECK(a_k != b_k);
   CHECK((a_k >= 270 && a_k <= 290));
   CHECK((b_k >= 270 && b_k <= 290));
-  CHECK(config.resolved["clips"][0]["weather"]["air_temperature_k"] == a_k);
-  CHECK(config.resolved["clips"][0]["drawn"] == parse_json(R"(["weather.air_temperature_k"])", ""));
-  CHECK(config.resolved["drawn"] == parse_json(R"(["weather.air_temperature_k"])", ""));
-  CHECK(resolved(config.resolved).resolved == config.resolved);
+  CHECK(config.document["clips"][0]["weather"]["air_temperature_k"] == a_k);
+  CHECK(config.document["clips"][0]["drawn"] == parse_json(R"(["weather.air_temperature_k"])", ""));
+  CHECK(config.document["drawn"] == parse_json(R"(["weather.air_temperature_k"])", ""));
+  CHECK(resolved(config.document).document == config.document);
 }
 
 TEST_CASE("A draw depends on seed, clip and key alone") {
@@ -162,8 +163,8 @@ TEST_CASE("A draw depends on seed, clip and key alone") {
 TEST_CASE("Nothing can be drawn, and unknown keys are left to the schema") {
   Json document = night();
   document["clips"][0]["flight"]["turbulence"] = parse_json(R"({"choice": [null]})", "");
-  const Config config = resolved(document);
-  CHECK(config.resolved["clips"][0]["flight"]["turbulence"] == "none");
+  const ResolvedConfig config = resolved(document);
+  CHECK(config.document["clips"][0]["flight"]["turbulence"] == "none");
   document["weather"]["a~b"] = parse_json(R"({"choice": [1]})", "");
   CHECK_THAT(fault_in(document), StartsWith("night.json: weather.a~b is not a known key; expected one of "));
 }
@@ -171,9 +172,9 @@ TEST_CASE("Nothing can be drawn, and unknown keys are left to the schema") {
 TEST_CASE("What a clip gives itself is not drawn for it") {
   Json document = night(R"({"weather": {"air_temperature_k": {"uniform": [270, 290]}}})");
   document["clips"][0]["weather"] = {{"air_temperature_k", 280}};
-  const Config config = resolved(document);
+  const ResolvedConfig config = resolved(document);
   CHECK(settings(config, "a").weather[0].air.temperature_k == 280);
-  CHECK_FALSE(config.resolved["clips"][0].contains("drawn"));
+  CHECK_FALSE(config.document["clips"][0].contains("drawn"));
 }
 
 TEST_CASE("A choice of objects is complete, whatever the dataset has drawn") {
@@ -182,22 +183,22 @@ TEST_CASE("A choice of objects is complete, whatever the dataset has drawn") {
   Json many = document;
   many["clips"] = parse_json(
       R"([{"id": "n", "count": 20, "season": {"choice": ["winter", "summer"]}, "frames": 1}])", "");
-  const Config config = resolved(many);
-  REQUIRE(config.clips.size() == 20);
-  CHECK(config.clips[0].id == "n_0000");
-  CHECK(config.clips[19].id == "n_0019");
+  const ResolvedConfig config = resolved(many);
+  REQUIRE(config.spec.clips.size() == 20);
+  CHECK(config.spec.clips[0].id == "n_0000");
+  CHECK(config.spec.clips[19].id == "n_0019");
   int winters = 0;
-  for (const ClipConfig& clip : config.clips) winters += clip.season == Season::winter ? 1 : 0;
+  for (const ClipSpec& clip : config.spec.clips) winters += clip.season == Season::winter ? 1 : 0;
   CHECK((winters > 0 && winters < 20));
 }
 
 TEST_CASE("The scene and what clips share are drawn once") {
-  const Config config = resolved(night(R"({"scene": {"terrain": {"relief_m": {"uniform": [5, 9]}}},
+  const ResolvedConfig config = resolved(night(R"({"scene": {"terrain": {"relief_m": {"uniform": [5, 9]}}},
       "weather": {"latitude_deg": {"uniform": [-25, -15]}}})"));
-  const double relief_m = config.resolved["scene"]["terrain"]["relief_m"];
+  const double relief_m = config.document["scene"]["terrain"]["relief_m"];
   CHECK((relief_m >= 5 && relief_m <= 9));
-  CHECK(config.own_of_clips.empty());
-  CHECK(config.resolved["drawn"] == parse_json(R"(["scene.terrain.relief_m", "weather.latitude_deg"])", ""));
+  for (const ClipSpec& clip : config.spec.clips) CHECK(clip.settings == config.spec.settings);
+  CHECK(config.document["drawn"] == parse_json(R"(["scene.terrain.relief_m", "weather.latitude_deg"])", ""));
 }
 
 TEST_CASE("Distributions that cannot be drawn are refused") {
@@ -247,13 +248,13 @@ TEST_CASE("Flights draw a row of a file of views") {
       folder.file("views.csv", "# real flights\nlook_angle_deg, altitude_m,weight\r\n30,60,0\n45,90,1\n");
   Json document = night();
   document["clips"][0]["flight"]["views"] = {{"file", file.string()}};
-  const Config config = resolved(document);
-  const Json& flight = config.resolved["clips"][0]["flight"];
+  const ResolvedConfig config = resolved(document);
+  const Json& flight = config.document["clips"][0]["flight"];
   CHECK(flight["altitude_m"] == 90);
   CHECK(flight["look_angle_deg"] == 45);
   CHECK(flight["speed_m_s"] == 12);
   CHECK_FALSE(flight.contains("views"));
-  CHECK(config.resolved["clips"][0]["drawn"] == parse_json(R"(["flight.views"])", ""));
+  CHECK(config.document["clips"][0]["drawn"] == parse_json(R"(["flight.views"])", ""));
   document["clips"][0]["flight"]["altitude_m"] = 50;
   CHECK(fault_in(document) ==
         "night.json: clips[0].flight.altitude_m = 50 m; expected none beside flight.views");

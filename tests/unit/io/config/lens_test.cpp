@@ -22,7 +22,7 @@ Json config_with(const std::string& distortion, const std::string& render = R"({
                     "");
 }
 
-Config resolved(const Json& document) { return resolve_config(document, "night.json", kAssets); }
+ResolvedConfig resolved(const Json& document) { return resolve_config(document, "night.json", kAssets); }
 
 std::string fault_in(const Json& document) {
   return message_of<ConfigError>([&] { (void)resolved(document); });
@@ -31,11 +31,11 @@ std::string fault_in(const Json& document) {
 }  // namespace
 
 TEST_CASE("A config without distortion has a pinhole, and needs no overscan") {
-  const Config config = resolved(config_with("{}"));
-  CHECK(config.distortion.is_none());
-  CHECK(config.overscan_px == 0);
-  CHECK(config.resolved["camera"]["distortion"].dump() == R"({"k1":0,"k2":0,"p1":0,"p2":0,"k3":0})");
-  CHECK(config.resolved["render"]["overscan_px"] == 0);
+  const ResolvedConfig config = resolved(config_with("{}"));
+  CHECK(config.spec.settings->distortion.is_none());
+  CHECK(config.spec.overscan_px == 0);
+  CHECK(config.document["camera"]["distortion"].dump() == R"({"k1":0,"k2":0,"p1":0,"p2":0,"k3":0})");
+  CHECK(config.document["render"]["overscan_px"] == 0);
 }
 
 TEST_CASE("A lens in mm takes the place of the focal length, whatever the preset's is") {
@@ -44,12 +44,12 @@ TEST_CASE("A lens in mm takes the place of the focal length, whatever the preset
       "clips": [{"id": "a", "season": "winter", "frames": 3},
                 {"id": "b", "season": "winter", "frames": 3, "camera": {"lens_mm": 25}}]})",
                  "");
-  const Config config = resolved(document);
-  CHECK(config.resolved["camera"]["focal_length_m"] == 0.019);
-  CHECK_FALSE(config.resolved["camera"].contains("lens_mm"));
-  CHECK_THAT(config.camera.fx_px, WithinRel(0.019 / 12e-6, 1e-12));
-  CHECK_THAT(settings_of(config, config.clip("b", "")).camera.fx_px, WithinRel(0.025 / 12e-6, 1e-12));
-  CHECK(resolved(config.resolved).resolved == config.resolved);
+  const ResolvedConfig config = resolved(document);
+  CHECK(config.document["camera"]["focal_length_m"] == 0.019);
+  CHECK_FALSE(config.document["camera"].contains("lens_mm"));
+  CHECK_THAT(config.spec.settings->camera.fx_px, WithinRel(0.019 / 12e-6, 1e-12));
+  CHECK_THAT(config.spec.clips[1].settings->camera.fx_px, WithinRel(0.025 / 12e-6, 1e-12));
+  CHECK(resolved(config.document).document == config.document);
   document["camera"]["focal_length_m"] = 0.019;
   CHECK(fault_in(document) ==
         "night.json: camera.focal_length_m = 0.019 m; expected none beside camera.lens_mm, which is the same "
@@ -60,30 +60,30 @@ TEST_CASE("A lens in mm takes the place of the focal length, whatever the preset
 }
 
 TEST_CASE("Each coefficient is read into its own") {
-  const Config config =
+  const ResolvedConfig config =
       resolved(config_with(R"({"k1": -0.1, "k2": 0.02, "p1": 0.003, "p2": -0.004, "k3": 0.05})"));
-  CHECK(config.distortion == LensDistortion{.k1 = -0.1, .k2 = 0.02, .p1 = 0.003, .p2 = -0.004, .k3 = 0.05});
+  CHECK(config.spec.settings->distortion ==
+        LensDistortion{.k1 = -0.1, .k2 = 0.02, .p1 = 0.003, .p2 = -0.004, .k3 = 0.05});
 }
 
 TEST_CASE("Overscan is what the lens needs, unless the config sets more") {
   // 1.25 (1 + k1 1.25^2) = 1 for k1 = -0.128: the last pixel shows what is 25 px beyond it.
-  const Config config = resolved(config_with(R"({"k1": -0.128})"));
-  CHECK(config.overscan_px == 25);
-  CHECK(config.resolved["render"]["overscan_px"] == 25);
-  CHECK(resolved(config.resolved).resolved == config.resolved);
-  CHECK(
-      resolved(config_with(R"({"k1": -0.128})", R"({"engine": "blender", "overscan_px": 40})")).overscan_px ==
-      40);
-  CHECK(resolved(config_with("{}", R"({"engine": "blender", "overscan_px": 40})")).overscan_px == 40);
+  const ResolvedConfig config = resolved(config_with(R"({"k1": -0.128})"));
+  CHECK(config.spec.overscan_px == 25);
+  CHECK(config.document["render"]["overscan_px"] == 25);
+  CHECK(resolved(config.document).document == config.document);
+  CHECK(resolved(config_with(R"({"k1": -0.128})", R"({"engine": "blender", "overscan_px": 40})"))
+            .spec.overscan_px == 40);
+  CHECK(resolved(config_with("{}", R"({"engine": "blender", "overscan_px": 40})")).spec.overscan_px == 40);
 }
 
 TEST_CASE(
     "Embree's rays follow the lens: there is no overscan, but the place is planned as far as the lens sees") {
-  const Config config = resolved(config_with(R"({"k1": -0.128})", R"({"engine": "embree"})"));
-  CHECK(config.overscan_px == 0);
-  CHECK(config.view_margin_px == 25);
-  CHECK(config.resolved["render"]["overscan_px"] == 0);
-  CHECK(resolved(config.resolved).resolved == config.resolved);
+  const ResolvedConfig config = resolved(config_with(R"({"k1": -0.128})", R"({"engine": "embree"})"));
+  CHECK(config.spec.overscan_px == 0);
+  CHECK(config.spec.view_margin_px == 25);
+  CHECK(config.document["render"]["overscan_px"] == 0);
+  CHECK(resolved(config.document).document == config.document);
   CHECK(fault_in(config_with(R"({"k1": -0.128})", R"({"engine": "embree", "overscan_px": 25})")) ==
         "night.json: render.overscan_px = 25 px; expected none with the engine embree, whose rays follow the "
         "lens");
@@ -92,9 +92,9 @@ TEST_CASE(
 }
 
 TEST_CASE("The place is planned as far as Blender's passes reach") {
-  CHECK(resolved(config_with(R"({"k1": -0.128})")).view_margin_px == 25);
-  CHECK(resolved(config_with("{}", R"({"engine": "blender", "overscan_px": 40})")).view_margin_px == 40);
-  CHECK(resolved(config_with("{}")).view_margin_px == 0);
+  CHECK(resolved(config_with(R"({"k1": -0.128})")).spec.view_margin_px == 25);
+  CHECK(resolved(config_with("{}", R"({"engine": "blender", "overscan_px": 40})")).spec.view_margin_px == 40);
+  CHECK(resolved(config_with("{}")).spec.view_margin_px == 0);
 }
 
 TEST_CASE("Too little overscan is an error, and so is a lens that folds the picture over") {
@@ -151,7 +151,7 @@ struct Calibrated {
 }  // namespace
 
 TEST_CASE("Without focal lengths and a principal point a camera is square and centred") {
-  const Json camera = resolved(small_camera()).resolved["camera"];
+  const Json camera = resolved(small_camera()).document["camera"];
   CHECK_FALSE(gives_intrinsics(camera));
   CHECK_FALSE(camera.contains("fx_px"));
   const CameraIntrinsics pinhole = read_intrinsics(camera);
@@ -164,13 +164,13 @@ TEST_CASE("Without focal lengths and a principal point a camera is square and ce
 TEST_CASE("What is given of the camera goes before focal length and middle") {
   Json document = small_camera();
   document["camera"].update({{"fx_px", 210}, {"cx_px", 90.5}});
-  CameraIntrinsics pinhole = read_intrinsics(resolved(document).resolved["camera"]);
+  CameraIntrinsics pinhole = read_intrinsics(resolved(document).document["camera"]);
   CHECK(pinhole.fx_px == 210);
   CHECK(pinhole.fy_px == 210);
   CHECK(pinhole.cx_px == 90.5);
   CHECK(pinhole.cy_px == 50.5);
   document["camera"].update({{"fy_px", 205}, {"cy_px", 60}});
-  pinhole = read_intrinsics(resolved(document).resolved["camera"]);
+  pinhole = read_intrinsics(resolved(document).document["camera"]);
   CHECK(pinhole.fy_px == 205);
   CHECK(pinhole.cy_px == 60);
   CHECK(gives_intrinsics(document["camera"]));
@@ -178,18 +178,18 @@ TEST_CASE("What is given of the camera goes before focal length and middle") {
 
 TEST_CASE("A calibration's numbers take the place of its name") {
   const Calibrated one;
-  const Config config = resolved(one.document);
-  const Json& camera = config.resolved["camera"];
+  const ResolvedConfig config = resolved(one.document);
+  const Json& camera = config.document["camera"];
   CHECK_FALSE(camera.contains("calibration"));
   CHECK(camera["fx_px"] == 200);
   CHECK(camera["fy_px"] == 210);
   CHECK(camera["cx_px"] == 98.5);
   CHECK(camera["cy_px"] == 52.5);
-  CHECK(config.distortion ==
+  CHECK(config.spec.settings->distortion ==
         LensDistortion{.k1 = -0.25, .k2 = 0.125, .p1 = 0.001, .p2 = -0.002, .k3 = 0.0625});
-  CHECK(config.overscan_px == overscan_px(read_intrinsics(camera), config.distortion));
-  CHECK(config.overscan_px > 0);
-  CHECK(resolved(config.resolved).resolved == config.resolved);
+  CHECK(config.spec.overscan_px == overscan_px(read_intrinsics(camera), config.spec.settings->distortion));
+  CHECK(config.spec.overscan_px > 0);
+  CHECK(resolved(config.document).document == config.document);
 }
 
 TEST_CASE("A calibration is named relative to the config") {
@@ -197,7 +197,7 @@ TEST_CASE("A calibration is named relative to the config") {
   Json document = one.document;
   document["camera"]["calibration"] = "cal.yml";
   root_files(document, one.folder.path());
-  CHECK(resolved(document).distortion.k1 == -0.25);
+  CHECK(resolved(document).spec.settings->distortion.k1 == -0.25);
 }
 
 TEST_CASE("A calibration that is not there, or of another size of picture, is a fault") {

@@ -34,7 +34,7 @@ Json with_sensor(const std::string& sensor) {
 
 Json config_schema() { return kAssets.schema("config"); }
 
-Config resolved(const Json& document) { return resolve_config(document, "night.json", kAssets); }
+ResolvedConfig resolved(const Json& document) { return resolve_config(document, "night.json", kAssets); }
 
 std::vector<Path> presets(const std::string& kind) {
   std::vector<Path> files;
@@ -138,17 +138,17 @@ TEST_CASE("Every preset is usable, and each of its figures has a source") {
 TEST_CASE("A link's preset applies where the config gives no value") {
   Json document = with_sensor("{}");
   document["output"] = {{"preset", "analogue_ntsc"}, {"link", {{"hum_hz", 50}, {"noise_levels", 8}}}};
-  const Config config = resolved(document);
-  REQUIRE(config.link);
-  CHECK_FALSE(config.codec);
-  CHECK(config.link->lines == 480);
-  CHECK(config.link->bandwidth_mhz == 4.2);
-  CHECK(config.link->hum_hz == 50);
-  CHECK(config.link->noise_levels == 8);
+  const ResolvedConfig config = resolved(document);
+  REQUIRE(config.spec.settings->link);
+  CHECK_FALSE(config.spec.settings->codec);
+  CHECK(config.spec.settings->link->lines == 480);
+  CHECK(config.spec.settings->link->bandwidth_mhz == 4.2);
+  CHECK(config.spec.settings->link->hum_hz == 50);
+  CHECK(config.spec.settings->link->noise_levels == 8);
   document["output"] = {{"preset", "dji_h264"}};
-  CHECK(resolved(document).codec ==
+  CHECK(resolved(document).spec.settings->codec ==
         VideoCodecSettings{.name = "h264", .bitrate_kbit_s = 4000, .bitrate_at_hz = 30});
-  CHECK_FALSE(resolved(document).link);
+  CHECK_FALSE(resolved(document).spec.settings->link);
   document["output"] = {{"preset", "analog_pal"}};
   CHECK(message_of<ConfigError>([&] { (void)resolved(document); }) ==
         "night.json: output.preset = \"analog_pal\"; expected one of analogue_ntsc, analogue_pal, dji_h264; "
@@ -226,8 +226,8 @@ TEST_CASE("Cameras have the field of view and the NETD of their data sheets, to 
     CAPTURE(name);
     REQUIRE(kSheets.contains(name));
     const Sheet& sheet = kSheets.at(name);
-    const Config config = resolved(with_sensor(R"({"preset": ")" + name + "\"}"));
-    const Json& camera = config.resolved["camera"];
+    const ResolvedConfig config = resolved(with_sensor(R"({"preset": ")" + name + "\"}"));
+    const Json& camera = config.document["camera"];
     const double diagonal_px =
         std::hypot(camera["width_px"].get<double>(), camera["height_px"].get<double>());
     const double focal_mm = 1000 * camera["focal_length_m"].get<double>();
@@ -237,8 +237,8 @@ TEST_CASE("Cameras have the field of view and the NETD of their data sheets, to 
     check_stated(focal_mm, sheet.lens_mm);
     const double diagonal_mm = 1e-3 * diagonal_px * camera["pixel_pitch_um"].get<double>();
     check_stated(focal_mm * std::hypot(36, 24) / diagonal_mm, sheet.film_mm);
-    check_stated(config.sensor.netd_mk, sheet.netd_mk);
-    check_stated(config.sensor.netd_f_number, sheet.f_number);
+    check_stated(config.spec.settings->sensor.netd_mk, sheet.netd_mk);
+    check_stated(config.spec.settings->sensor.netd_f_number, sheet.f_number);
   }
 }
 
@@ -246,28 +246,29 @@ TEST_CASE("The table of cameras says what the presets have") {
   for (const Path& file : presets("sensors")) {
     const std::string name = file.stem().string();
     CAPTURE(name);
-    const Config config = resolved(with_sensor(R"({"preset": ")" + name + "\"}"));
-    const Json& camera = config.resolved["camera"];
+    const ResolvedConfig config = resolved(with_sensor(R"({"preset": ")" + name + "\"}"));
+    const Json& camera = config.document["camera"];
     const std::vector<std::string> cells = row_of_readme(name);
     REQUIRE(cells.size() > 6);
     CHECK(cells[2] == fmt::format(" {} x {}, {} um ", camera["width_px"].get<int>(),
                                   camera["height_px"].get<int>(), camera["pixel_pitch_um"].get<double>()));
     CHECK(cells[4] == fmt::format(" {:.1f} x {:.1f} deg ", field_of_view_deg(camera["width_px"], camera),
                                   field_of_view_deg(camera["height_px"], camera)));
-    CHECK(cells[5] == fmt::format(" {:.3g} mK ", 1000 * config.netd_k));
-    CHECK(cells[6] == fmt::format(" {:.1f} cm ", 6100 / config.camera.fx_px));
+    CHECK(cells[5] == fmt::format(" {:.3g} mK ", 1000 * config.spec.settings->netd_k));
+    CHECK(cells[6] == fmt::format(" {:.1f} cm ", 6100 / config.spec.settings->camera.fx_px));
   }
 }
 
 TEST_CASE("A preset builds on another, whose values apply wherever it gives none") {
-  const Config config = resolved(with_sensor(R"({"preset": "flir_tau_2_640_25mm"})"));
-  CHECK(config.resolved["sensor"]["preset"] == "flir_tau_2_640_25mm");
-  CHECK(config.resolved["camera"]["focal_length_m"] == 0.025);        // its own
-  CHECK(config.sensor.optics.f_number == 1.1);                        // its own
-  CHECK(config.sensor.saturation_k == 408.15);                        // of the Vue Pro
-  CHECK(config.resolved["sensor"]["response"] == "flat_7_5_13_5um");  // of the Vue Pro
-  CHECK(config.sensor.housing.excess_k == 10);                        // of any uncooled camera
-  CHECK(resolved(with_sensor(R"({"preset": "boson_640_18mm"})")).sensor.agc.mode == AgcMode::information);
+  const ResolvedConfig config = resolved(with_sensor(R"({"preset": "flir_tau_2_640_25mm"})"));
+  CHECK(config.document["sensor"]["preset"] == "flir_tau_2_640_25mm");
+  CHECK(config.document["camera"]["focal_length_m"] == 0.025);        // its own
+  CHECK(config.spec.settings->sensor.optics.f_number == 1.1);         // its own
+  CHECK(config.spec.settings->sensor.saturation_k == 408.15);         // of the Vue Pro
+  CHECK(config.document["sensor"]["response"] == "flat_7_5_13_5um");  // of the Vue Pro
+  CHECK(config.spec.settings->sensor.housing.excess_k == 10);         // of any uncooled camera
+  CHECK(resolved(with_sensor(R"({"preset": "boson_640_18mm"})")).spec.settings->sensor.agc.mode ==
+        AgcMode::information);
 }
 
 TEST_CASE("A preset that builds on itself is an error, and so is one that builds on none that exists") {
@@ -290,28 +291,28 @@ TEST_CASE("A preset that builds on itself is an error, and so is one that builds
 TEST_CASE("A config overrides its preset, value by value, and the preset overrides defaults") {
   Json document = with_sensor(R"({"preset": "boson_640_14mm", "netd_mk": 33, "noise": {"row_ratio": 0.7}})");
   document["camera"] = {{"width_px", 320}};
-  const Config config = resolved(document);
-  CHECK(config.sensor.netd_mk == 33);
-  CHECK(config.sensor.noise.row_ratio == 0.7);
-  CHECK(config.sensor.noise.column_ratio == 0.2);  // the preset's
-  CHECK(config.sensor.noise.banding_ratio == 0);   // the schema's
-  CHECK(config.width_px == 320);
-  CHECK(config.height_px == 512);
-  CHECK(config.sensor.optics.pixel_pitch_um == 12);
-  CHECK(config.physical);
-  CHECK(resolved(config.resolved).resolved == config.resolved);
+  const ResolvedConfig config = resolved(document);
+  CHECK(config.spec.settings->sensor.netd_mk == 33);
+  CHECK(config.spec.settings->sensor.noise.row_ratio == 0.7);
+  CHECK(config.spec.settings->sensor.noise.column_ratio == 0.2);  // the preset's
+  CHECK(config.spec.settings->sensor.noise.banding_ratio == 0);   // the schema's
+  CHECK(config.spec.width_px == 320);
+  CHECK(config.spec.height_px == 512);
+  CHECK(config.spec.settings->sensor.optics.pixel_pitch_um == 12);
+  CHECK(config.spec.physical);
+  CHECK(resolved(config.document).document == config.document);
 }
 
 TEST_CASE("By default, the camera is the published one") {
-  const Config config = resolved(with_sensor("{}"));
-  CHECK(config.resolved["sensor"]["preset"] == "airsim_w");
-  CHECK(config.sensor.netd_mk == 470);
-  CHECK_FALSE(config.physical);
+  const ResolvedConfig config = resolved(with_sensor("{}"));
+  CHECK(config.document["sensor"]["preset"] == "airsim_w");
+  CHECK(config.spec.settings->sensor.netd_mk == 470);
+  CHECK_FALSE(config.spec.physical);
 }
 
 TEST_CASE("NETD grows as the light of the lens's cone of rays falls") {
-  const Config config = resolved(with_sensor(R"({"preset": "flir_vue_pro_640_13mm"})"));
-  CHECK_THAT(config.netd_k, WithinRel(0.0725, 1e-12));
+  const ResolvedConfig config = resolved(with_sensor(R"({"preset": "flir_vue_pro_640_13mm"})"));
+  CHECK_THAT(config.spec.settings->netd_k, WithinRel(0.0725, 1e-12));
 }
 
 TEST_CASE("An unknown preset is an error with the nearest name") {

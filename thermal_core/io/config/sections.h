@@ -1,21 +1,15 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
 #include <map>
-#include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/assets.h"
+#include "io/config/spec.h"
 #include "io/json/file.h"
-#include "io/video/video_codec.h"
-#include "labels/instances.h"
-#include "scene/camera_model.h"
-#include "scene/terms.h"
-#include "scene/weather.h"
-#include "sensor/analogue_link.h"
-#include "sensor/sensor_parameters.h"
 
 namespace thermal {
 
@@ -27,26 +21,14 @@ inline constexpr std::array kOncePerDataset = {"/camera/width_px",      "/camera
                                                "/sensor/model",         "/sensor/kelvin_per_count",
                                                "/weather/latitude_deg", "/weather/elevation_m"};
 
-/// What these sections mean.
-struct ClipSettings {
-  CameraIntrinsics camera;
-  bool gives_intrinsics = false;  ///< the document gives some of the camera's, directly or by a calibration
-  LensDistortion distortion;
-  SensorParameters sensor;
-  LabelParameters labels;
-  std::optional<AnalogueLinkParameters> link;  ///< ahead of the codec; empty: none
-  std::optional<VideoCodecSettings> codec;     ///< that 8-bit frames pass through; empty: none
-  TermChoices terms;
-  double netd_k = 0.04;
-  std::array<Weather, 2> weather;  ///< by season; see weather_of()
-};
-
-/// Shared by clips with the same settings.
-using SharedSettings = std::shared_ptr<const ClipSettings>;
-
 /// The settings of a document whose sections are checked and filled in. `where` starts messages: "night.json: ".
-[[nodiscard]] ClipSettings read_settings(const Json& document, const std::string& where,
-                                         const Assets& assets);
+[[nodiscard]] SharedSettings read_settings(const Json& document, const std::string& where,
+                                           const Assets& assets);
+
+/// Adds a line for each thing in a checked section `weather` that cannot be in one of the seasons: a date that no calendar
+/// has, a minimum of the air above its maximum, a dew point above the air, air given twice.
+void check_weather(const Json& weather, std::initializer_list<Season> seasons,
+                   std::vector<std::string>& faults);
 
 /// Takes the sections of its own out of a clip or a flight of a config, which is no object if the schema is to say so.
 [[nodiscard]] Json take_sections(Json& entry);
@@ -58,15 +40,21 @@ using SharedSettings = std::shared_ptr<const ClipSettings>;
 /// Resolves the sections of clips and flights: those of the dataset with what differs.
 class SectionResolver {
  public:
-  /// `given`: the document before its presets and defaults were filled in; `resolved`: after. All must outlive this.
-  SectionResolver(const Json& given, const Json& resolved, const Json& schema, const std::string& name,
-                  const Assets& assets)
-      : given_(given), resolved_(resolved), schema_(schema), name_(name), assets_(assets) {}
+  /// `given`: the document before its presets and defaults were filled in; `resolved`: after, and `settings` what it means.
+  /// References must outlive this.
+  SectionResolver(const Json& given, const Json& resolved, SharedSettings settings, const Json& schema,
+                  const std::string& name, const Assets& assets)
+      : given_(given),
+        resolved_(resolved),
+        settings_(std::move(settings)),
+        schema_(schema),
+        name_(name),
+        assets_(assets) {}
 
   /// What a clip or a flight has of its own.
   struct Own {
-    Json changes;                       ///< to the dataset's resolved sections, with all numbers filled in
-    SharedSettings settings = nullptr;  ///< null: the dataset's
+    Json changes;  ///< to the dataset's resolved sections, with all numbers filled in
+    SharedSettings settings;
   };
 
   /// `place` is that of the clip or flight: "clips[2]". ConfigError with one line per fault.
@@ -77,6 +65,7 @@ class SectionResolver {
 
   const Json& given_;
   const Json& resolved_;
+  SharedSettings settings_;
   const Json& schema_;
   const std::string& name_;
   const Assets& assets_;
