@@ -174,6 +174,15 @@ def test_errors_name_the_key(veldt):
     check_fault(veldt("validate", "config.json"), 2, f'config.json: clips[0] ("many", 5 clips).{rule}')
 
 
+def test_faults_that_the_planner_finds_name_the_entry_as_well(veldt):
+    config = _drawn()
+    many, own = config["clips"]
+    low = many | {"id": "low", "count": 3, "flight": many["flight"] | {"altitude_m": 0}}
+    veldt.write("config.json", config | {"clips": [many, low, own]})
+    rule = "flight.altitude_m = 0 m; expected more than 0 m above ground"
+    check_fault(veldt("validate", "config.json"), 2, f'config.json: clips[1] ("low", 3 clips).{rule}')
+
+
 def test_a_clip_cannot_have_a_scene_or_a_size_of_picture_of_its_own(veldt):
     config = _drawn()
     config["clips"][1]["camera"] = {"width_px": 64}

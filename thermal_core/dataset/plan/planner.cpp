@@ -27,11 +27,22 @@
 namespace thermal {
 namespace {
 
+/// A fault that the planner found, which counts clips and flights one by one: "clips[7].flight …" of entry `clips[2]`.
+std::string with_entry_named(const std::string& line, const EntryNames& entries) {
+  const std::string_view text = line;
+  const std::size_t begin = text.find('[');
+  const std::size_t end = text.find(']');
+  const auto list = entries.find(line.substr(0, begin));
+  if (list == entries.end() || end == std::string_view::npos) return line;
+  const auto number = number_in<std::size_t>(text.substr(begin + 1, end - begin - 1));
+  return number && *number < list->second.size() ? list->second[*number] + line.substr(end + 1) : line;
+}
+
 /// Of each line that the planner printed.
-std::vector<std::string> faults_in(const std::string& text) {
+std::vector<std::string> faults_in(const std::string& text, const EntryNames& entries) {
   std::vector<std::string> faults;
   for (const std::string_view line : split(text, '\n'))
-    if (!line.empty()) faults.emplace_back(line);
+    if (!line.empty()) faults.push_back(with_entry_named(std::string(line), entries));
   return faults;
 }
 
@@ -82,7 +93,7 @@ std::string run_planning(const ResolvedConfig& config, const std::string& name, 
                                     [&options](const std::string& line) { show_event(line, options); });
   constexpr int kConfigFault = 2;
   if (output.status.signal == 0 && output.status.code == kConfigFault)
-    throw_faults(faults_in(output.error), name);
+    throw_faults(faults_in(output.error, config.entries), name);
   if (output.status.signal != 0 || output.status.code != 0)
     throw_failure(fmt::format("{} {}", python.string(), script.filename().string()), output);
   return output.out;

@@ -16,7 +16,6 @@
 #include "io/config/lens.h"
 #include "io/config/sections.h"
 #include "io/config/sensor.h"
-#include "io/json/schema.h"
 
 namespace thermal {
 namespace {
@@ -219,6 +218,7 @@ ResolvedConfig with_clips(ResolvedConfig config, std::vector<ClipSpec> clips) {
   }
   config.spec.clips = std::move(clips);
   config.spec.flights.clear();
+  config.entries.clear();
   return config;
 }
 
@@ -267,7 +267,7 @@ ResolvedConfig resolve_config(Json document, const std::string& name, const Asse
   spec.engine = render["engine"] == "embree" ? Engine::embree : Engine::blender;
   spec.adaptive_sampling = render["sampling"] == "adaptive";
   document.erase("$schema");
-  return {.document = std::move(document), .spec = std::move(spec)};
+  return {.document = std::move(document), .spec = std::move(spec), .entries = std::move(drawn.places)};
 }
 
 std::string expected_config(const Json& here, const Json& there) {

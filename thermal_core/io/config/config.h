@@ -6,6 +6,7 @@
 #include "io/assets.h"
 #include "io/config/spec.h"
 #include "io/json/file.h"
+#include "io/json/schema.h"
 
 namespace thermal {
 
@@ -15,6 +16,7 @@ struct ResolvedConfig {
       document;  ///< with all defaults: for the planner, for files, to compare with another and to change keys of
   DatasetSpec
       spec;  ///< has the document's clips and flights, in its order; what is computed is computed from it
+  EntryNames entries;  ///< of the user's config, which made these: see DrawnConfig
 };
 
 /// Sets the season of every clip and flight of a document.
