@@ -101,6 +101,13 @@ def test_passes_of_a_flights_clip_are_converted_with_the_config_that_has_the_fli
     assert clip["pixels_sha256"] == made["pixels_sha256"]
 
 
+def test_the_config_of_a_dataset_makes_the_clips_of_its_flights_again(veldt):
+    _run(veldt, "--quiet")
+    veldt.write("config.json", _dataset(veldt)["config"])
+    _run(veldt, "--quiet", out="again")
+    assert _dataset(veldt, "again")["pixels_sha256"] == _dataset(veldt)["pixels_sha256"]
+
+
 def test_shards_deal_out_the_clips_of_flights(veldt):
     for shard in range(3):
         _run(veldt, "--quiet", "--shard", f"{shard}/3", out=f"part_{shard}")

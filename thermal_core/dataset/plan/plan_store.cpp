@@ -77,8 +77,8 @@ class ClipCheck {
     }
     const ClipSpec& own = spec_.clips[k];
     if (clip.id != own.id) fail(k, "id", quoted(clip.id), quoted(own.id) + ", as in the config");
-    if (!clip.of_flight.empty())
-      fail(k, "of_flight", quoted(clip.of_flight), "\"\", for a clip of the config");
+    if (clip.of_flight != own.of_flight)
+      fail(k, "of_flight", quoted(clip.of_flight), quoted(own.of_flight) + ", for a clip of the config");
     if (clip.frames != own.frames)
       fail(k, "frames", std::to_string(clip.frames), fmt::format("{}, as in the config", own.frames));
   }
