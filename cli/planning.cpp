@@ -100,13 +100,13 @@ void plan_with_progress(const CommonOptions& common, const thermal::Assets& asse
   print_left_over(left_over);
 }
 
-thermal::DatasetPlan plan_with_progress(const CommonOptions& common, const thermal::Assets& assets,
-                                        const thermal::ResolvedConfig& config, const std::string& name) {
-  thermal::DatasetPlan plan;
+thermal::PlannedDataset plan_with_progress(const CommonOptions& common, const thermal::Assets& assets,
+                                           const thermal::ResolvedConfig& config, const std::string& name) {
+  thermal::PlannedDataset planned;
   plan_with_progress(common, assets, [&](const thermal::PlanOptions& options) {
-    plan = thermal::plan_dataset(config, name, options);
+    planned = thermal::plan_dataset(config, name, options);
   });
-  return plan;
+  return planned;
 }
 
 }  // namespace veldt

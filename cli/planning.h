@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "dataset/plan/plan_store.h"
 #include "dataset/plan/planner.h"
 #include "io/assets.h"
 #include "io/config/config.h"
@@ -25,9 +24,9 @@ void plan_with_progress(const CommonOptions& common, const thermal::Assets& asse
                         const std::function<void(const thermal::PlanOptions& options)>& plan);
 
 /// plan_dataset(), which writes nothing.
-[[nodiscard]] thermal::DatasetPlan plan_with_progress(const CommonOptions& common,
-                                                      const thermal::Assets& assets,
-                                                      const thermal::ResolvedConfig& config,
-                                                      const std::string& name);
+[[nodiscard]] thermal::PlannedDataset plan_with_progress(const CommonOptions& common,
+                                                         const thermal::Assets& assets,
+                                                         const thermal::ResolvedConfig& config,
+                                                         const std::string& name);
 
 }  // namespace veldt

@@ -46,7 +46,7 @@ class ModelMeshes:
         if not path.with_suffix(".json").exists():
             if not self._take_over(path):
                 self._import(where, data, path)
-        _, found = arrays.read(path, FORMAT, VERSION)
+        _, found = arrays.read(path)
         return Mesh(*(np.array(found[name]) for name in ("points_m", "triangles", "slot")))
 
     def _take_over(self, path: Path) -> bool:

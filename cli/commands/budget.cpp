@@ -61,10 +61,9 @@ int run_budget(const BudgetArguments& options, const CommonOptions& common) {
   const thermal::Assets assets = thermal::Assets::find();
   const thermal::ResolvedConfig given = load_config(options.config, options.settings, assets);
   const thermal::MaterialLibrary materials = thermal::read_materials(assets);
-  const thermal::DatasetPlan plan = plan_with_progress(common, assets, given, options.config);
-  const thermal::DatasetSpec spec = thermal::with_flights_cut(given, plan, options.config).spec;
-  const thermal::SceneOutline outline = thermal::outline_of(spec, plan, materials);
-  const thermal::KeptTerms kept(spec, outline);
+  const auto [config, plan] = plan_with_progress(common, assets, given, options.config);
+  const thermal::SceneOutline outline = thermal::outline_of(config.spec, plan, materials);
+  const thermal::KeptTerms kept(config.spec, outline);
   const thermal::Budget& budget = kept.budget();
   if (options.json) {
     print_json(thermal::to_json(budget));

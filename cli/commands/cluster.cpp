@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/output.h"
-#include "dataset/plan/planner.h"
+#include "dataset/plan/plan_store.h"
 #include "dataset/run/options.h"
 #include "io/assets.h"
 
@@ -128,7 +128,7 @@ Values values_of(const ClusterArguments& options, const thermal::DatasetSpec& sp
 
 int run_cluster(const ClusterArguments& options) {
   const thermal::Assets assets = thermal::Assets::find();
-  const thermal::PlannedDataset dataset = thermal::open_plan(options.plan, assets);
+  const thermal::PlannedDataset dataset = thermal::PlanStore(options.plan, assets).open();
   const bool is_slurm = options.scheduler == "slurm";
   const thermal::Path file = assets.home() / "configs/cluster" / (is_slurm ? "slurm.sh" : "kubernetes.yaml");
   const std::string text = filled_in(thermal::read_file(file), values_of(options, dataset.config.spec));

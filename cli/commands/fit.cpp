@@ -8,7 +8,7 @@
 #include "cli/output.h"
 #include "cli/planning.h"
 #include "cli/progress_bar.h"
-#include "dataset/plan/planner.h"
+#include "dataset/plan/plan_store.h"
 #include "io/assets.h"
 
 namespace veldt {
@@ -51,9 +51,9 @@ thermal::Fit fitted(const FitArguments& options, const CommonOptions& common) {
   request.config_name = options.config;
   request.assets = thermal::Assets::find();
   const auto plan = [&](const thermal::Path& folder, const thermal::ResolvedConfig& config) {
-    thermal::DatasetPlan planned;
+    thermal::PlannedDataset planned;
     plan_with_progress(common, request.assets, [&](const thermal::PlanOptions& planning) {
-      planned = thermal::plan_into(folder, config, options.config, planning);
+      planned = thermal::PlanStore(folder, request.assets).plan(config, options.config, planning);
     });
     return planned;
   };

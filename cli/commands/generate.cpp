@@ -18,9 +18,10 @@
 #include "cli/progress_bar.h"
 #include "cli/run_summary.h"
 #include "dataset/dataset_file.h"
+#include "dataset/dataset_index.h"
 #include "dataset/plan/plan_store.h"
-#include "dataset/plan/planner.h"
 #include "dataset/run/options.h"
+#include "dataset/run/passes_folder.h"
 #include "dataset/run/render.h"
 #include "io/assets.h"
 #include "io/system/child_process.h"
@@ -113,9 +114,7 @@ thermal::Shard parse_shard(const std::string& text, const Environment& environme
 struct Work {
   std::string command;
   std::string footer;
-  std::function<thermal::DatasetPlan(const thermal::Path& out, const thermal::ResolvedConfig&,
-                                     const std::string& name, const thermal::PlanOptions&)>
-      plan;
+  thermal::CheckOut check;
   std::function<thermal::RunOutcome(const thermal::ResolvedConfig&, const thermal::DatasetPlan&,
                                     const thermal::GenerateOptions&, const thermal::RunHooks&)>
       run;
@@ -142,7 +141,8 @@ int make_preview(const thermal::ResolvedConfig& config, const std::string& name,
                  const thermal::GenerateOptions& request, const CommonOptions& common) {
   plan_with_progress(common, request.assets, [&](thermal::PlanOptions options) {
     options.blender = request.blender;
-    thermal::plan_to_preview(request.out, config, name, options);
+    options.preview = true;
+    thermal::plan_in_dataset(request.out, config, name, options);
   });
   watch_for_stop();
   int pictures = 0;
@@ -160,17 +160,13 @@ int make_preview(const thermal::ResolvedConfig& config, const std::string& name,
 thermal::PlannedDataset plan_of_run(const thermal::ResolvedConfig& config, const GenerateArguments& options,
                                     const thermal::GenerateOptions& request, const CommonOptions& common,
                                     const Work& work) {
-  thermal::DatasetPlan planned;
-  if (options.dry_run)
-    planned = plan_with_progress(common, request.assets, config, options.config);
-  else
-    plan_with_progress(common, request.assets, [&](thermal::PlanOptions planning) {
-      planning.blender = request.blender;
-      planned = work.plan(request.out, config, options.config, planning);
-    });
-  thermal::ResolvedConfig cut =
-      thermal::with_flights_cut(config, planned, (request.plan / "plan.json").string());
-  return {.config = std::move(cut), .plan = std::move(planned)};
+  if (options.dry_run) return plan_with_progress(common, request.assets, config, options.config);
+  thermal::PlannedDataset planned;
+  plan_with_progress(common, request.assets, [&](thermal::PlanOptions planning) {
+    planning.blender = request.blender;
+    planned = thermal::plan_in_dataset(request.out, config, options.config, planning, work.check);
+  });
+  return planned;
 }
 
 /// Colour stills need Blender with every engine.
@@ -193,7 +189,7 @@ void check_sources(const GenerateArguments& options, const std::string& command)
 
 /// The given config, or a plan with its config.
 thermal::PlannedDataset read_sources(const GenerateArguments& options, const thermal::Assets& assets) {
-  if (!options.plan.empty()) return thermal::open_plan(options.plan, assets);
+  if (!options.plan.empty()) return thermal::PlanStore(options.plan, assets).open();
   return {.config = load_config(options.config, with_engine(options.settings, options.engine), assets),
           .plan = {}};
 }
@@ -228,7 +224,7 @@ int run_generate(const GenerateArguments& options, const CommonOptions& common, 
     print_plan(config.spec, plan, chosen);
     return kDone;
   }
-  if (!options.plan.empty()) thermal::check_files_of_clips(options.plan, thermal::ids_of(chosen));
+  if (!options.plan.empty()) thermal::PlanStore(options.plan, assets).check_clips(thermal::ids_of(chosen));
   watch_for_stop();
   thermal::RunOutcome outcome;
   {
@@ -302,7 +298,7 @@ void add_generate(CLI::App& app, Session& session) {
            "stop the others: the exit code is 3, dataset.json has the reason, and the next run tries it\n"
            "again.\n"
            "Example: veldt generate configs/demo.json --out my_dataset",
-       .plan = thermal::plan_to_generate,
+       .check = thermal::check_same_dataset,
        .run = thermal::generate});
 }
 
@@ -310,7 +306,7 @@ void add_render(CLI::App& app, Session& session) {
   add(app, session, "Render passes and manifests only",
       {.command = "render",
        .footer = "Example: veldt render configs/savanna.json --out look --preview",
-       .plan = thermal::plan_to_render,
+       .check = thermal::check_same_passes,
        .run = [](const auto& config, const auto& /*plan*/, const auto& request, const auto& hooks) {
          return thermal::render(config, request, hooks);
        }});

@@ -13,7 +13,7 @@
 #include "cli/output.h"
 #include "cli/progress_bar.h"
 #include "cli/run_summary.h"
-#include "dataset/plan/planner.h"
+#include "dataset/plan/plan_store.h"
 #include "io/assets.h"
 
 namespace veldt {
@@ -53,7 +53,7 @@ void check_arguments(const MergeArguments& options) {
 
 std::optional<thermal::ResolvedConfig> planned_config(const MergeArguments& options) {
   if (options.plan.empty()) return std::nullopt;
-  return thermal::open_plan(options.plan, thermal::Assets::find()).config;
+  return thermal::PlanStore(options.plan, thermal::Assets::find()).open().config;
 }
 
 int run_merge(const MergeArguments& options, const CommonOptions& common) {

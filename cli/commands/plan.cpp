@@ -4,7 +4,7 @@
 #include "cli/command.h"
 #include "cli/output.h"
 #include "cli/planning.h"
-#include "dataset/plan/planner.h"
+#include "dataset/plan/plan_store.h"
 #include "io/assets.h"
 
 namespace veldt {
@@ -19,10 +19,10 @@ struct PlanArguments {
 };
 
 /// Only a plan may be overwritten.
-void check_out(const thermal::Path& out) {
+void check_out(const thermal::Path& out, const thermal::PlanStore& store) {
   const bool is_taken = std::filesystem::exists(out) &&
                         (!std::filesystem::is_directory(out) || !std::filesystem::is_empty(out));
-  if (!is_taken || std::filesystem::exists(out / "plan.json")) return;
+  if (!is_taken || store.exists()) return;
   throw thermal::ConfigError(thermal::fault("--out", out.string(), "", "an empty folder, or a plan"));
 }
 
@@ -32,11 +32,12 @@ int run_plan(const PlanArguments& options, const CommonOptions& common) {
       load_config(options.config, with_engine(options.settings, options.engine), assets);
   // Without a trailing slash: the plan is built beside the folder.
   const thermal::Path out = std::filesystem::absolute(options.out + "/").lexically_normal().parent_path();
-  check_out(options.out);
+  const thermal::PlanStore store(out, assets);
+  check_out(options.out, store);
   thermal::PlannedDataset dataset;
   plan_with_progress(common, assets, [&](thermal::PlanOptions planning) {
     if (!options.blender.empty()) planning.blender = find_blender(options.blender);
-    dataset = thermal::plan_with_config(out, given, options.config, planning);
+    dataset = store.plan_with_config(given, options.config, planning);
   });
   if (!common.quiet) print_plan(dataset.config.spec, dataset.plan, dataset.config.spec.clips);
   return kDone;

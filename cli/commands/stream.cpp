@@ -9,7 +9,7 @@
 #include "cli/output.h"
 #include "cli/planning.h"
 #include "dataset/live/live_stream.h"
-#include "dataset/plan/planner.h"
+#include "dataset/plan/plan_store.h"
 #include "io/assets.h"
 #include "io/system/temporary.h"
 
@@ -54,7 +54,7 @@ void plan_into_folder(const StreamArguments& options, const thermal::Path& folde
   settings.insert(settings.end(), {"render.engine=embree", "render.posed_actors=all"});
   const thermal::ResolvedConfig config = load_config(options.config, settings, assets);
   plan_with_progress(common, assets, [&](const thermal::PlanOptions& planning) {
-    thermal::plan_with_config(folder, config, options.config, planning);
+    thermal::PlanStore(folder, assets).plan_with_config(config, options.config, planning);
   });
 }
 

@@ -49,7 +49,7 @@ int validate_dataset(const ValidateArguments& options, const CommonOptions& comm
 int validate_config(const ValidateArguments& options, const CommonOptions& common) {
   const thermal::Assets assets = thermal::Assets::find();
   const thermal::ResolvedConfig config = load_config(options.what, options.settings, assets);
-  const auto plan = plan_with_progress(common, assets, config, options.what).clips;
+  const auto plan = plan_with_progress(common, assets, config, options.what).plan.clips;
   int frames = 0;
   int with_actors = 0;
   for (const thermal::ClipPlan& clip : plan) {

@@ -4,7 +4,6 @@ import numpy as np
 
 from scenes import tiny
 from planner.bake.arrays import read
-from planner.bake.forms import SCENE, VERSION
 from planner.workers import Cores
 from planner.world import plan_world
 
@@ -41,7 +40,7 @@ def test_trails_follow_the_loops_of_groups():
 
 
 def test_the_baked_scene_has_the_maps_whatever_the_cores(plan):
-    header, arrays = read(plan / "scene", SCENE, VERSION)
+    header, arrays = read(plan / "scene")
     ground = header["ground"]
     assert ground["fine_cells"] == 240
     one, two = (plan_world(tiny(), Cores(count), with_ground=True).ground.fine for count in (1, 2))

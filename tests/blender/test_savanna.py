@@ -8,7 +8,6 @@ import pytest
 
 from resolved import resolve
 from planner.bake.arrays import read
-from planner.bake.forms import TRACK, VERSION
 from planner.bake.tracks import bake_track
 from planner.config import ROOT
 from planner.groups.actors import poses, track
@@ -139,7 +138,7 @@ def test_a_track_has_every_actor_as_it_is_alone_at_one_moment(savanna, tmp_path)
     """All species, variants and behaviours."""
     flight = savanna.flight(savanna.config["clips"][0] | {"frames": 7})
     bake_track(savanna, "clip", flight, tmp_path / "clip", everyone=True)
-    _, arrays = read(tmp_path / "clip", TRACK, VERSION)
+    _, arrays = read(tmp_path / "clip")
     baked = iter(arrays["bones"])
     for k, actor in enumerate(savanna.actors):
         for frame in range(7):

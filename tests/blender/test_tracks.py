@@ -5,7 +5,6 @@ import pytest
 from scenes import tiny
 from planner.bake import tracks
 from planner.bake.arrays import read
-from planner.bake.forms import TRACK, VERSION
 from planner.camera import project
 from planner.groups.actors import track
 from planner.sightings import box_corners_m
@@ -50,7 +49,7 @@ def test_a_track_is_the_same_however_many_moments_are_computed_together(
 
 def test_actors_are_posed_in_every_frame_that_shows_them_and_not_in_all(busy, tmp_path):
     _baked(busy, tmp_path / "track")
-    header, arrays = read(tmp_path / "track", TRACK, VERSION)
+    header, arrays = read(tmp_path / "track")
     posed, lens = arrays["posed"] != 0, busy.view_intrinsics
     assert header["frames"] == 40 and posed.shape == (len(busy.actors), 40)
     for actor, frames in zip(busy.actors, posed):
@@ -66,8 +65,8 @@ def test_a_clip_may_have_a_camera_of_its_own(busy, tmp_path):
     narrow = busy.config["camera"] | {"fx_px": 400.0, "fy_px": 400.0}
     tracks.bake_track(busy, clip["id"], busy.flight(clip), tmp_path / "narrow", camera=narrow)
     _baked(busy, tmp_path / "usual")
-    header, arrays = read(tmp_path / "narrow", TRACK, VERSION)
-    usual_header, usual = read(tmp_path / "usual", TRACK, VERSION)
+    header, arrays = read(tmp_path / "narrow")
+    usual_header, usual = read(tmp_path / "usual")
     assert header["camera"] == narrow and "camera" not in usual_header
     assert 0 < arrays["posed"].sum() < usual["posed"].sum()
     assert busy.camera(clip | {"camera": narrow}).focal_px == (400.0, 400.0)
@@ -79,5 +78,5 @@ def test_a_place_without_actors_has_tracks(tmp_path):
         del config["clips"][1:]  # which follow a group
 
     _baked(plan_world(tiny(empty)), tmp_path / "track")
-    _, arrays = read(tmp_path / "track", TRACK, VERSION)
+    _, arrays = read(tmp_path / "track")
     assert arrays["bones"].shape == (0, 3, 4) and arrays["actor_position_m"].shape == (0, 3, 3)

@@ -76,6 +76,7 @@ clips = [
 plan = {{"format": "veldt-plan", "version": 1, "config": config, "files": {{}}, "clips": clips, "actors": 0}}
 plan |= {{"plants": 0, "outline": {{"covers": {{}}, "actors": []}}}}
 (Path(sys.argv[sys.argv.index("--out") + 1]) / "plan.json").write_text(json.dumps(plan))
+print(json.dumps(plan))
 """
 
 

@@ -108,6 +108,7 @@ def scene(water: bool) -> bytes:
         "view_margin_px": 0,
         "depth_range_m": [0.1, 20000.0],
         "materials": [{"index": 1, "material": "soil"}, {"index": 2, "material": "human", "part": "face"}],
+        "mirrors": ["water"] * water,
         "objects": _objects(),
         "meshes": [_mesh("field", True), _mesh("body", False)],
         "surfaces": [{"object": 1, "mesh": 0}] + [{"object": 2, "mesh": 0}] * water,

@@ -3,7 +3,6 @@
 
 #include "dataset/outline/outline.h"
 #include "dataset/plan/plan_store.h"
-#include "dataset/plan/planner.h"
 #include "dataset/run/options.h"
 #include "fuzz/accepted.h"
 #include "fuzz/targets.h"
@@ -22,7 +21,7 @@ class PlanFolder {
   [[nodiscard]] thermal::Path write(const Json& input) const {
     for (const char* name : {"plan", "config"})
       (void)folder_.file(std::string(name) + ".json", text_of(input, name));
-    thermal::write_checksums(folder_.path());
+    thermal::PlanStore(folder_.path(), kAssets).write_checksums();
     return folder_.path();
   }
 
@@ -74,7 +73,7 @@ void fuzz::scene_plan(Bytes bytes) {
   if (!input.is_object()) return;
   const thermal::Path folder = kFolder.write(input);
   tolerate([&folder, bytes] {
-    const PlannedDataset dataset = thermal::open_plan(folder, kAssets);
+    const PlannedDataset dataset = thermal::PlanStore(folder, kAssets).open();
     demand_sound(dataset);
     AcceptedInputs::instance().add(bytes);
     use(dataset, bytes.size() % 8 == 0);

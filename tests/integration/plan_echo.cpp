@@ -121,11 +121,11 @@ void write_scene(const thermal::BakedScene& scene, const thermal::Path& folder) 
                  {"seed", scene.seed},
                  {"camera", camera_json(scene.camera)},
                  {"view_margin_px", scene.view_margin_px},
-                 {"depth_range_m", scene.depth_range_m}};
+                 {"depth_range_m", scene.depth_range_m},
+                 {"mirrors", scene.mirrors}};
   for (const char* list : {"materials", "objects", "meshes", "surfaces", "plants", "actors"})
     header[list] = Json::array();
   for (const auto& material : scene.materials) header["materials"].push_back(material_json(material));
-  if (!scene.mirrors.empty()) header["mirrors"] = scene.mirrors;
   for (const auto& object : scene.objects) header["objects"].push_back(object_json(object));
   for (const auto& mesh : scene.meshes)
     header["meshes"].push_back(mesh_json(mesh, header["meshes"].size(), out));

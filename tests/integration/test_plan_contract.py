@@ -15,7 +15,6 @@ import pytest
 
 from configs import tiny
 from program import PROGRAM, ROOT, Veldt
-from planner.bake.arrays import BadBake
 from planner.bake.baked import read_plan, read_scene, read_track
 
 ECHO = Path(os.environ.get("VELDT_PLAN_ECHO") or PROGRAM.parent / "plan_echo")
@@ -98,93 +97,82 @@ def _cut(name: str) -> Callable[[Path], None]:
 
 
 GROUND = "meshes/0/points_m"
-# By name: what is done to a plan, what the C++ side says, and what the Python side says.
+# By name: what is done to a plan, and what is said.
 FAULTS = {
     "scene of another version": (
         _header("scene", lambda header: header.update(version=2)),
         "{plan}/scene.json: version = 2; expected at least 1 and at most 1",
-        "scene.json: version = 2; expected 1",
     ),
     "track of another version": (
         _header("tracks/down", lambda header: header.update(version=0)),
         "{plan}/tracks/down.json: version = 0; expected at least 1 and at most 1",
-        "tracks/down.json: version = 0; expected 1",
     ),
     "another format": (
         _header("scene", lambda header: header.update(format="veldt-plan")),
         '{plan}/scene.json: format = "veldt-plan"; expected veldt-scene',
-        'scene.json: format; expected "veldt-scene"',
+    ),
+    "scene that does not say what mirrors": (
+        _header("scene", lambda header: header.pop("mirrors")),
+        "{plan}/scene.json: mirrors is missing; expected a value",
     ),
     "truncated scene": (
         _cut("scene"),
         "{plan}/scene.bin: {less} bytes; expected {bytes}",
-        "scene.bin: .* bytes; expected",
     ),
-    "truncated track": (_cut("tracks/side"), "{plan}/tracks/side.bin: ", "side.bin: .* bytes; expected"),
+    "truncated track": (_cut("tracks/side"), "{plan}/tracks/side.bin: "),
     "offset outside": (
         _header("scene", lambda header: header["arrays"][GROUND].update(offset=header["bytes"])),
         f"{{plan}}/scene.json: arrays.{GROUND}.offset = {{bytes}}; expected a multiple of 64 within the {{bytes}}"
         " bytes of scene.bin, with all of the array",
-        f"arrays.{GROUND}.offset = .* bytes of scene.bin",
     ),
     "offset not aligned": (
         _header("scene", lambda header: header["arrays"][GROUND].update(offset=4)),
         f"{{plan}}/scene.json: arrays.{GROUND}.offset = 4; expected a multiple of 64 within the {{bytes}} bytes of"
         " scene.bin, with all of the array",
-        f"arrays.{GROUND}.offset = 4 with",
     ),
     "shape beyond the file": (
         _header("scene", lambda header: header["arrays"][GROUND].update(shape=[10**9, 10**9, 10**9])),
         f"{{plan}}/scene.json: arrays.{GROUND}.offset = 0; expected a multiple of 64 within the {{bytes}} bytes of"
         " scene.bin, with all of the array",
-        f"arrays.{GROUND}.offset = 0 with",
     ),
     "NaN in a plant's transform": (
         _value("scene", "plants/acacia/transform", "<f8", 3, np.nan),
         "{plan}/scene.json: plants/acacia/transform[3] = nan; expected a finite number",
-        "arrays.plants/acacia/transform has values that are not finite",
     ),
     "NaN in a bone's transform": (
         _value("tracks/side", "bones", "<f4", 7, np.nan),
         "{plan}/tracks/side.json: bones[7] = nan; expected a finite number",
-        "arrays.bones has values that are not finite",
     ),
     "infinity in a pose": (
         _value("tracks/side", "camera_to_world", "<f8", 3, np.inf),
         "{plan}/tracks/side.json: camera_to_world[3] = inf; expected a finite number",
-        "arrays.camera_to_world has values that are not finite",
     ),
     "material without a name": (
         _value("scene", "meshes/0/material_index", "<u2", 5, 999),
         "{plan}/scene.json: meshes/0/material_index[5] = 999; expected an index of materials",
-        "arrays.meshes/0/material_index = 999; expected an index of materials",
     ),
     "object without a name": (
         _header("scene", lambda header: header["surfaces"][0].update(object=77)),
         "{plan}/scene.json: surfaces[0].object = 77; expected an index of objects",
-        r"surfaces\[0\].object = 77; expected an index of objects",
     ),
     "vertex that is not there": (
         _value("scene", "meshes/0/triangles", "<u4", 2, 4000000000),
         "{plan}/scene.json: meshes/0/triangles = 4000000000; expected one of the {points} points",
-        "meshes/0/triangles = 4000000000; expected one of the",
     ),
     "mesh that is not there": (
         _value("scene", "plants/acacia/mesh", "<u4", 0, 5000),
         "{plan}/scene.json: plants/acacia/mesh = 5000; expected one of the {meshes} meshes",
-        "plants/acacia/mesh = 5000; expected one of the",
     ),
     "too few bones": (
         _header("tracks/side", lambda header: header["arrays"]["bones"]["shape"].__setitem__(0, 3)),
         "{plan}/tracks/side.json: arrays.bones.shape = [3,3,4]; expected [{bones}, 3, 4]",
-        r"arrays.bones.shape = \[3, 3, 4\]; expected",
     ),
 }
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_both_sides_refuse(plan, tmp_path, name):
-    tamper, message, words = FAULTS[name]
+def test_the_reader_refuses(plan, tmp_path, name):
+    tamper, message = FAULTS[name]
     header = json.loads((plan / "scene.json").read_text(encoding="utf-8"))
     side = json.loads((plan / "tracks" / "side.json").read_text(encoding="utf-8"))
     damaged = tmp_path / "plan"
@@ -201,5 +189,3 @@ def test_both_sides_refuse(plan, tmp_path, name):
     )
     assert done.returncode == 1
     assert done.stderr == f"{expected}\n" or (message.endswith(": ") and done.stderr.startswith(expected))
-    with pytest.raises(BadBake, match=words):
-        _read(damaged, "down", "side")

@@ -6,8 +6,6 @@
 #include "base/error.h"
 #include "bench/measure.h"
 #include "dataset/dataset_file.h"
-#include "dataset/plan/planner.h"
-#include "io/bake/baked_files.h"
 #include "io/exr/passes.h"
 #include "io/json/file.h"
 #include "scene/camera_geometry.h"
@@ -46,9 +44,12 @@ class Planner {
     task_.announce(std::string(name) + ", planning");
     const Path plan = task_.folder / name;
     document["scene"]["temperatures"] = "table_1";  // needs no maps of the ground
-    (void)plan_into(plan, resolve_config(std::move(document), name, task_.assets), name,
-                    {.assets = task_.assets, .threads = task_.threads});
-    return {.name = name, .plan = plan, .clips = std::move(clips)};
+    const ResolvedConfig config = resolve_config(std::move(document), name, task_.assets);
+    const PlanOptions options = {.assets = task_.assets, .threads = task_.threads};
+    return {.name = name,
+            .plan = plan,
+            .planned = PlanStore(plan, task_.assets).plan(config, name, options),
+            .clips = std::move(clips)};
   }
 
  private:
@@ -112,15 +113,15 @@ double frame_time_s(const ClipTracer& tracer, std::size_t frames, Passes& out) {
   return sum_s / static_cast<double>(frames - 1);
 }
 
-EmbreeScene::EmbreeScene(const EngineScene& planned, const Assets& assets)
-    : plan_(planned.plan),
-      assets_(assets),
-      scene_(read_baked_scene(plan_, assets)),
+EmbreeScene::EmbreeScene(const EngineScene& of, const Assets& assets)
+    : spec_(of.planned.config.spec),
+      store_(of.plan, assets),
+      scene_(store_.scene(spec_)),
       caster_(scene_),
       camera_(camera_of(scene_)) {}
 
 BakedTrack EmbreeScene::track(const std::string& clip) const {
-  return read_baked_track(plan_, clip, scene_, assets_);
+  return store_.track(spec_.clip(clip, "clips"), scene_);
 }
 
 std::size_t EmbreeScene::plants() const noexcept {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dataset/plan/plan_store.h"
 #include "io/assets.h"
 #include "io/system/files.h"
 #include "raycast/ray_caster.h"
@@ -24,6 +25,7 @@ struct EngineClip {
 struct EngineScene {
   std::string name;
   Path plan;  ///< folder
+  PlannedDataset planned;
   std::vector<EngineClip> clips;
 };
 
@@ -59,7 +61,8 @@ struct Differing {
 /// A planned config, prepared for the engine `embree`.
 class EmbreeScene {
  public:
-  EmbreeScene(const EngineScene& planned, const Assets& assets);
+  /// `of` must outlive this object.
+  EmbreeScene(const EngineScene& of, const Assets& assets);
   ~EmbreeScene() = default;
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -74,8 +77,8 @@ class EmbreeScene {
  private:
   [[nodiscard]] BakedTrack track(const std::string& clip) const;
 
-  Path plan_;
-  Assets assets_;
+  const DatasetSpec& spec_;
+  PlanStore store_;
   BakedScene scene_;
   RayCaster caster_;
   CameraIntrinsics camera_;

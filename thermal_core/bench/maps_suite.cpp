@@ -10,7 +10,7 @@
 
 #include "base/parallel.h"
 #include "bench/measure.h"
-#include "dataset/plan/planner.h"
+#include "dataset/plan/plan_store.h"
 #include "io/bake/baked_files.h"
 #include "io/json/file.h"
 #include "io/system/temporary.h"
@@ -104,14 +104,15 @@ RenderRow measured(const Case& one, const Path& folder, const MapsSuiteTask& tas
   const PlanOptions options = {.assets = task.assets, .threads = task.threads};
   Json bare = one.document;
   bare["scene"]["temperatures"] = "table_1";  // the same plan without maps
+  const PlanStore store(folder / one.name, task.assets);
   const DatasetPlan plan =
-      plan_into(folder / one.name, resolve_config(std::move(bare), one.name, task.assets), one.name, options);
+      store.plan(resolve_config(std::move(bare), one.name, task.assets), one.name, options).plan;
   task.announce(one.name);
   std::vector<SunDay> days;
   for (const SunPath& path : sun_paths(config.spec)) days.push_back({.path = path, .sun = sun_hours(path)});
   const double begin_s = processor_s();
-  const BakedScene scene = read_baked_scene(folder / one.name, task.assets);
-  const std::vector<GroundView> views = ground_views(folder / one.name, plan, scene, task.assets);
+  const BakedScene scene = store.scene(config.spec);
+  const std::vector<GroundView> views = store.ground_views(plan, scene);
   const GroundMaps maps = make_ground_maps(scene, days, views);
   const double taken_s = processor_s() - begin_s;
 
@@ -122,7 +123,7 @@ RenderRow measured(const Case& one, const Path& folder, const MapsSuiteTask& tas
   const RayCaster caster(scene);
   std::map<Square, double> squares;
   for (const ClipPlan& clip : plan.clips) {
-    const BakedTrack track = read_baked_track(folder / one.name, clip.id, scene, task.assets);
+    const BakedTrack track = store.track(clip.id, clip.frames, scene);
     for (const auto& [square, pixels] : squares_in(scene, caster, track, maps)) squares[square] += pixels;
   }
   GroundMaps reference = maps;

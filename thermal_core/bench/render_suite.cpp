@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "bench/measure.h"
-#include "dataset/plan/planner.h"
+#include "dataset/plan/plan_store.h"
 #include "dataset/run/render_job.h"
 #include "io/exr/passes.h"
 #include "io/json/file.h"
@@ -110,8 +110,8 @@ namespace {
 /// Plans a config of the project into a folder.
 Path plan_of_config(const Assets& assets, const std::string& name, Path folder) {
   const Path file = assets.config(name);
-  (void)plan_into(folder, resolve_config(read_json(file), file.string(), assets), file.string(),
-                  {.assets = assets});
+  PlanStore(folder, assets)
+      .plan(resolve_config(read_json(file), file.string(), assets), file.string(), {.assets = assets});
   return folder;
 }
 
@@ -173,8 +173,8 @@ std::vector<RenderRow> process_rows(const RenderSuiteTask& task, const Path& fol
   document["clips"][0]["frames"] = kFrames;
   const std::string clip = document["clips"][0]["id"];
   const Path plan = folder / "layers";
-  (void)plan_into(plan, resolve_config(std::move(document), "demo", task.assets), "demo",
-                  {.assets = task.assets});
+  PlanStore(plan, task.assets)
+      .plan(resolve_config(std::move(document), "demo", task.assets), "demo", {.assets = task.assets});
   const auto rate = [&](const char* out, int threads) {
     return rendered_per_s({task.blender, task.assets, plan, folder / out, threads}, clip);
   };

@@ -11,8 +11,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "dataset/dataset_file.h"
+#include "dataset/dataset_index.h"
 #include "dataset/plan/plan_store.h"
-#include "dataset/plan/planner.h"
 #include "dataset/run/generate.h"
 #include "dataset/run/options.h"
 #include "dataset/run/render.h"
@@ -141,14 +141,12 @@ py::dict generate_config(const Sources& sources, const std::string& out, const R
   {
     const py::gil_scoped_release others_run;
     GenerateOptions options = options_of(sources.home, out, Layout{out}.plan(), settings);
-    const ResolvedConfig config = config_of(sources);
-    DatasetPlan plan =
-        plan_to_generate(out, config, sources.name, planning_of(options.assets, settings.threads, listener));
+    const PlannedDataset planned =
+        plan_in_dataset(out, config_of(sources), sources.name,
+                        planning_of(options.assets, settings.threads, listener), check_same_dataset);
     listener.raise();
-    ResolvedConfig cut = with_flights_cut(config, plan, (options.plan / "plan.json").string());
-    (void)choose_clips(cut.spec, options.clips, options.shard);
-    outcome =
-        run({.config = std::move(cut), .plan = std::move(plan)}, std::move(options), settings, listener);
+    (void)choose_clips(planned.config.spec, options.clips, options.shard);
+    outcome = run(planned, std::move(options), settings, listener);
   }
   return dict_of(outcome);
 }
@@ -160,8 +158,9 @@ py::dict generate_plan(const std::string& plan, const std::string& home, const s
   {
     const py::gil_scoped_release others_run;
     GenerateOptions options = options_of(home, out, plan, settings);
-    const PlannedDataset dataset = open_plan(plan, options.assets);
-    check_files_of_clips(plan, ids_of(choose_clips(dataset.config.spec, options.clips, options.shard)));
+    const PlanStore store(plan, options.assets);
+    const PlannedDataset dataset = store.open();
+    store.check_clips(ids_of(choose_clips(dataset.config.spec, options.clips, options.shard)));
     outcome = run(dataset, std::move(options), settings, listener);
   }
   return dict_of(outcome);
@@ -171,8 +170,10 @@ std::vector<std::string> plan_config(const Sources& sources, const std::string& 
                                      const Report& report) {
   Listener listener(report);
   const py::gil_scoped_release others_run;
-  const PlannedDataset planned = plan_with_config(folder, config_of(sources), sources.name,
-                                                  planning_of(Assets(sources.home), threads, listener));
+  const Assets assets(sources.home);
+  const PlannedDataset planned =
+      PlanStore(folder, assets)
+          .plan_with_config(config_of(sources), sources.name, planning_of(assets, threads, listener));
   listener.raise();
   return ids_of(planned.config.spec.clips);
 }

@@ -115,8 +115,7 @@ SceneAccelerator::SceneAccelerator(const BakedScene& scene, RTCFilterFunctionN f
       device_(new_device()),
       meshes_(scene.meshes.size()),
       normals_(scene.meshes.size()),
-      mirrors_(scene),
-      has_water_(mirrors_.any()) {
+      mirrors_(scene) {
   for (const BakedMesh& mesh : scene.meshes) boxes_.push_back(box_of(mesh));
   std::vector<bool> is_surface(scene.meshes.size());
   for (const BakedSurface& surface : scene.surfaces) is_surface[surface.mesh] = true;

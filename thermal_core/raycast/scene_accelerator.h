@@ -43,14 +43,14 @@ class SceneAccelerator {
     return normals_[mesh];
   }
 
-  [[nodiscard]] bool has_water() const noexcept { return has_water_; }
+  [[nodiscard]] bool has_water() const noexcept { return mirrors_.any(); }
 
   /// Pieces of the surroundings that have triangles that mirror.
   [[nodiscard]] const std::vector<Piece>& waters() const noexcept { return waters_; }
 
   /// Whether triangles of this object and material mirror.
   [[nodiscard]] bool is_water(std::uint16_t object, std::uint16_t material) const noexcept {
-    return has_water_ && mirrors_.has(object, material);
+    return mirrors_.has(object, material);
   }
 
   [[nodiscard]] const MeshBox& box(std::size_t mesh) const noexcept { return boxes_[mesh]; }
@@ -67,7 +67,6 @@ class SceneAccelerator {
   std::vector<MeshBox> boxes_;
   PieceSet surroundings_;
   MirrorIndices mirrors_;
-  bool has_water_ = false;
   std::vector<Piece> waters_;
 };
 

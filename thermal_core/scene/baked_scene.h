@@ -98,12 +98,12 @@ struct BakedScene {
 class MirrorIndices {
  public:
   explicit MirrorIndices(const BakedScene& scene)
-      : objects_(among(scene.objects, scene.mirrors)), materials_(among(scene.materials, scene.mirrors)) {}
+      : objects_(among(scene.objects, scene.mirrors)),
+        materials_(among(scene.materials, scene.mirrors)),
+        any_(std::ranges::count(objects_, true) + std::ranges::count(materials_, true) > 0) {}
 
   /// Whether any may.
-  [[nodiscard]] bool any() const {
-    return std::ranges::count(objects_, true) + std::ranges::count(materials_, true) > 0;
-  }
+  [[nodiscard]] bool any() const noexcept { return any_; }
 
   /// Whether those of this object and material do.
   [[nodiscard]] bool has(std::uint16_t object, std::uint16_t material) const {
@@ -120,6 +120,7 @@ class MirrorIndices {
 
   std::vector<bool> objects_;  ///< by index
   std::vector<bool> materials_;
+  bool any_;
 };
 
 /// A clip's camera and actors, frame by frame (configs/schema/track.schema.json).

@@ -65,7 +65,6 @@ def bake_scene(world: World, model_mesh: ModelMesh, path: Path) -> None:
     actors = [_actor(actor, bodies, model_mesh, meshes) for actor in world.actors]
     maps = _maps(world, world.ground)
     beds = plan_beds(world.config["scene"]["groups"], world.actors, world.terrain, world.config["seed"])
-    mirrors = _mirrors(world)
     header = {
         "format": SCENE,
         "version": VERSION,
@@ -75,7 +74,7 @@ def bake_scene(world: World, model_mesh: ModelMesh, path: Path) -> None:
         "view_margin_px": world.view_margin_px,
         "depth_range_m": list(DEPTH_RANGE_M),
         "materials": _materials(world),
-        **({"mirrors": mirrors} if mirrors else {}),
+        "mirrors": _mirrors(world),
         "objects": [*_place(world), *_cast(world)],
         "meshes": meshes.entries,
         "surfaces": surfaces,

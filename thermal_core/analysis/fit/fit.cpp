@@ -207,8 +207,7 @@ Json with_few_clips(Json document, int most) {
 
 /// Config, plan and stored radiance of a document.
 struct Footage {
-  ResolvedConfig config;
-  DatasetPlan plan;
+  PlannedDataset planned;
   StoredRadiance radiance;
 };
 
@@ -227,11 +226,11 @@ class Fitter {
     const RealFeatures fitted(copies_of(halves.first), options_.seed);
     const std::vector<FrameFigures> judging = copies_of(halves.second);
     auto footage = footage_of("first");
-    std::vector<FrameFigures> before = footage->radiance.measured(footage->config.spec, targets_);
+    std::vector<FrameFigures> before = footage->radiance.measured(footage->planned.config.spec, targets_);
     Fit found;
     found.distance_before = fitted.distance(before);
     if (fit_size(fitted.frames(), before, *footage, found)) footage = footage_of("resized");
-    const FittedSpace space(document_, footage->config.document);
+    const FittedSpace space(document_, footage->planned.config.document);
     const auto cost = [&](const std::vector<double>& point) {
       return fitted.distance(
           footage->radiance.measured(spec_of(space.document_at(point), *footage), targets_));
@@ -259,18 +258,17 @@ class Fitter {
   }
 
   [[nodiscard]] DatasetSpec spec_of(const Json& document, const Footage& footage) const {
-    return with_flights_cut(resolved(document), footage.plan, "plan").spec;
+    return with_flights_cut(resolved(document), footage.planned.plan, "plan").spec;
   }
 
   std::unique_ptr<Footage> footage_of(const std::string& name) {
     const Path folder = folder_.path() / name;
     const ResolvedConfig config = resolved(document_);
     check_can_be_exposed(config.spec, options_.config_name);
-    DatasetPlan plan = plan_(folder, config);
-    ResolvedConfig cut = with_flights_cut(config, plan, "plan");
-    StoredRadiance radiance(cut.spec, plan, folder, static_cast<std::size_t>(options_.clips), options_.assets,
-                            options_.rendering);
-    return std::make_unique<Footage>(Footage{std::move(cut), std::move(plan), std::move(radiance)});
+    PlannedDataset planned = plan_(folder, config);
+    StoredRadiance radiance(planned, {folder, options_.assets}, static_cast<std::size_t>(options_.clips),
+                            options_.assets, options_.rendering);
+    return std::make_unique<Footage>(Footage{std::move(planned), std::move(radiance)});
   }
 
   /// Adjusts the focal length if targets are larger or smaller than real ones. Returns whether it did.
@@ -293,14 +291,14 @@ class Fitter {
     }
     const double ratio = median_of(of_real) / median_of(of_made);
     if (std::abs(std::log(ratio)) < kRightSize) return false;
-    if (footage.config.spec.settings->gives_intrinsics) {
+    if (footage.planned.config.spec.settings->gives_intrinsics) {
       found.no_size = fmt::format(
           "targets are {:.2f} times as high, but the config gives the camera's intrinsics", ratio);
       return false;
     }
     const Json before = document_.value(Json::json_pointer("/camera/focal_length_m"), Json());
-    const Json after =
-        scaled(before.is_null() ? footage.config.document["camera"]["focal_length_m"] : before, ratio);
+    const Json after = scaled(
+        before.is_null() ? footage.planned.config.document["camera"]["focal_length_m"] : before, ratio);
     document_["camera"]["focal_length_m"] = after;
     found.changed.push_back({.key = "camera.focal_length_m", .before = before, .after = after});
     return true;

@@ -8,7 +8,7 @@
 
 #include "analysis/compare/comparison.h"
 #include "analysis/compare/frame_source.h"
-#include "dataset/plan/plan_store.h"
+#include "dataset/plan/dataset_plan.h"
 #include "dataset/progress.h"
 #include "io/assets.h"
 #include "io/config/config.h"
@@ -34,7 +34,7 @@ struct FitOptions {
 };
 
 /// Plans a config into a folder.
-using PlanInto = std::function<DatasetPlan(const Path& folder, const ResolvedConfig& config)>;
+using PlanInto = std::function<PlannedDataset(const Path& folder, const ResolvedConfig& config)>;
 
 /// A feature of frames or targets: medians, and how well it alone separates frames from the held-out half of the real
 /// ones (area under the curve, .5 or more).

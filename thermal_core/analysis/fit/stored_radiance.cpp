@@ -11,7 +11,6 @@
 #include "dataset/clip/scenes.h"
 #include "dataset/clip/task.h"
 #include "dataset/outline/outline.h"
-#include "dataset/plan/planner.h"
 #include "dataset/run/tracing.h"
 #include "io/config/materials.h"
 #include "labels/instances.h"
@@ -48,19 +47,20 @@ void check_can_be_exposed(const DatasetSpec& spec, const std::string& name) {
     throw ConfigError(fault(name + ": render.engine", "\"blender\"", "", "\"embree\" or \"auto\""));
 }
 
-StoredRadiance::StoredRadiance(const DatasetSpec& spec, const DatasetPlan& plan, const Path& folder,
-                               std::size_t most_clips, const Assets& assets, const RunHooks& hooks) {
+StoredRadiance::StoredRadiance(const PlannedDataset& planned, const PlanStore& store, std::size_t most_clips,
+                               const Assets& assets, const RunHooks& hooks) {
+  const DatasetSpec& spec = planned.config.spec;
   const MaterialLibrary materials = read_materials(assets);
   HeatDays heat(materials);
-  const auto ground = read_needed_ground_maps(folder, spec, assets);
-  const KeptTerms kept(spec, outline_of(spec, plan, materials));
-  const PlanTracer tracer(folder, spec, assets);
+  const KeptTerms kept(spec, outline_of(spec, planned.plan, materials));
+  const PlanTracer tracer(store, spec);
+  const auto ground = store.ground_maps(spec, tracer.scene());
   const std::vector<std::size_t> chosen = evenly(spec.clips.size(), most_clips);
   Progress progress;
   for (const std::size_t k : chosen) progress.total += spec.clips[k].frames;
   for (const std::size_t k : chosen) {
     const ClipSpec& clip = spec.clips[k];
-    ClipPasses passes = tracer.trace(clip, folder / clip.id, false);
+    ClipPasses passes = tracer.trace(clip, {}, false);
     ClipScenes scenes(passes.manifest, materials);
     Clip stored = {.place = k,
                    .manifest = {},

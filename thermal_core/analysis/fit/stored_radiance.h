@@ -28,9 +28,9 @@ void check_can_be_exposed(const DatasetSpec& spec, const std::string& name);
 /// Radiance of some clips, rendered once, to be exposed repeatedly by other cameras, links and codecs.
 class StoredRadiance {
  public:
-  /// Renders the frames of clips that are spread evenly over those of a dataset, `most_clips` at most. `plan`: the
-  /// dataset's, in `folder`; it must pass check_can_be_exposed(). DataError and IoError as PlanTracer.
-  StoredRadiance(const DatasetSpec& spec, const DatasetPlan& plan, const Path& folder, std::size_t most_clips,
+  /// Renders the frames of clips that are spread evenly over those of a config, `most_clips` at most, with the plan of
+  /// `store`. The config must pass check_can_be_exposed(). DataError and IoError as PlanTracer.
+  StoredRadiance(const PlannedDataset& planned, const PlanStore& store, std::size_t most_clips,
                  const Assets& assets, const RunHooks& hooks);
 
   /// The frames exposed with the sensor, link and codec of `spec`'s clips, the same in the same order; everything else is

@@ -14,7 +14,9 @@ constexpr std::size_t kMostDays = 16;  // kept: clips with the same weather are 
 
 }  // namespace
 
-bool has_ground_beside(const Path& clip_passes) { return has_ground_maps(folder_of_clips(clip_passes)); }
+bool has_ground_beside(const Path& clip_passes) {
+  return std::filesystem::exists(folder_of_clips(clip_passes) / "ground.json");
+}
 
 std::shared_ptr<const HeatOfDay> HeatDays::of(const DayWeather& weather) {
   const std::scoped_lock lock(mutex_);
@@ -29,7 +31,7 @@ std::shared_ptr<const GroundMaps> HeatDays::ground_beside(const Path& clip_passe
   const Path folder = folder_of_clips(clip_passes);
   const std::scoped_lock lock(mutex_);
   const auto [found, is_new] = grounds_.try_emplace(folder);
-  if (is_new && assets_ && has_ground_maps(folder))
+  if (is_new && assets_ && has_ground_beside(clip_passes))
     found->second = std::make_shared<const GroundMaps>(read_ground_maps(folder, *assets_));
   return found->second;
 }

@@ -8,6 +8,7 @@
 #include "imaging/scene_radiance.h"
 #include "io/config/spec.h"
 #include "io/pass_buffer.h"
+#include "io/system/files.h"
 #include "scene/manifest.h"
 #include "scene/passes.h"
 

@@ -211,7 +211,7 @@ class Flights {
 void stream_flights(const LiveStreamOptions& options, const std::function<bool()>& stopped,
                     const std::function<void(const StreamedClip&)>& state,
                     const std::function<void(const StreamedClip&)>& done) {
-  const PlannedDataset planned = open_plan(options.plan, options.assets);
+  const PlannedDataset planned = PlanStore(options.plan, options.assets).open();
   const std::vector<std::string> clips = ids_of(choose_clips(planned.config.spec, options.clips, {}));
   if (options.frame_rate_hz) check_frame_rate(*options.frame_rate_hz, "frame_rate_hz");
   Flights flights(options, stopped);

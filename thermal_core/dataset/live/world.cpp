@@ -10,17 +10,15 @@
 #include "dataset/clip/heat_days.h"
 #include "dataset/outline/outline.h"
 #include "dataset/run/tracing.h"
-#include "io/bake/baked_files.h"
-#include "io/bake/ground_maps_file.h"
 #include "io/config/materials.h"
 #include "raycast/vectors.h"
 
 namespace thermal {
 namespace {
 
-PlannedDataset checked_plan(const Path& plan, const Assets& assets) {
-  PlannedDataset planned = open_plan(plan, assets);
-  const std::string where = (plan / "config.json").string() + ": ";
+PlannedDataset checked_plan(const PlanStore& store) {
+  PlannedDataset planned = store.open();
+  const std::string where = store.config_file().string() + ": ";
   if (planned.config.spec.engine != Engine::embree)
     throw ConfigError(where + fault("render.engine", "\"blender\"", "", "\"embree\""));
   if (!planned.config.spec.poses_all)
@@ -48,16 +46,14 @@ Manifest manifest_for(const DatasetSpec& spec, const ClipSpec& clip, const Baked
   return manifest;
 }
 
-std::unique_ptr<LiveClip> clip_for(const PlannedDataset& planned, const ClipSpec& clip, const Path& plan,
-                                   const BakedScene& scene, Manifest manifest, const Assets& assets) {
+std::unique_ptr<LiveClip> clip_for(const PlannedDataset& planned, const ClipSpec& clip,
+                                   const PlanStore& store, const BakedScene& scene, Manifest manifest,
+                                   const Assets& assets) {
   const DatasetSpec& spec = planned.config.spec;
   auto materials = std::make_shared<const MaterialLibrary>(read_materials(assets));
   const KeptTerms kept(spec, outline_of(spec, planned.plan, *materials));
-  std::shared_ptr<const GroundMaps> ground;
-  if (uses_ground_maps(plan, spec))
-    ground = std::make_shared<const GroundMaps>(read_ground_maps(plan, scene.ground, assets));
   HeatDays heat(*materials);
-  ClipTask task = task_of(spec, clip, kept.of(clip), heat, std::move(ground));
+  ClipTask task = task_of(spec, clip, kept.of(clip), heat, store.ground_maps(spec, scene));
   return std::make_unique<LiveClip>(std::move(manifest), std::move(materials), std::move(task));
 }
 
@@ -105,19 +101,19 @@ std::array<double, 16> pose_between(const std::array<double, 16>& from, const st
 }  // namespace
 
 World::World(const Path& plan, const std::string& clip, const Assets& assets, const WorldOptions& options)
-    : World(checked_plan(plan, assets), plan, clip, assets, options) {}
+    : World(checked_plan({plan, assets}), {plan, assets}, clip, assets, options) {}
 
-World::World(const PlannedDataset& planned, const Path& plan, const std::string& clip, const Assets& assets,
-             const WorldOptions& options)
-    : scene_(read_baked_scene(plan, assets)),
-      track_(read_baked_track(plan, planned.config.spec.clip(clip, "clip").id, scene_, assets)),
+World::World(const PlannedDataset& planned, const PlanStore& store, const std::string& clip,
+             const Assets& assets, const WorldOptions& options)
+    : scene_(store.scene(planned.config.spec)),
+      track_(store.track(planned.config.spec.clip(clip, "clip"), scene_)),
       caster_(scene_),
       moments_(scene_, track_) {
   if (options.frame_rate_hz && !(*options.frame_rate_hz > 0 && std::isfinite(*options.frame_rate_hz)))
     throw ConfigError(fault("frame_rate_hz", fmt::format("{}", *options.frame_rate_hz), "Hz", "above 0"));
   const DatasetSpec& spec = planned.config.spec;
   const ClipSpec& own = spec.clip(clip, "clip");
-  clip_ = clip_for(planned, own, plan, scene_, manifest_for(spec, own, scene_, track_, options), assets);
+  clip_ = clip_for(planned, own, store, scene_, manifest_for(spec, own, scene_, track_, options), assets);
   tracer_ = std::make_unique<const CameraTracer>(caster_, clip_->manifest().camera,
                                                  Sampling{.supersample = spec.supersample,
                                                           .adaptive = spec.adaptive_sampling,

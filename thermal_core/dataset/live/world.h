@@ -8,7 +8,7 @@
 #include <string>
 
 #include "dataset/live/live_clip.h"
-#include "dataset/plan/planner.h"
+#include "dataset/plan/plan_store.h"
 #include "raycast/ray_caster.h"
 #include "scene/baked_scene.h"
 
@@ -32,7 +32,7 @@ struct WorldOptions {
 class World {
  public:
   /// A clip of a plan whose config has render.posed_actors "all" and the engine `embree`. ConfigError if it has not, for
-  /// an unknown clip and for a frame rate that is not above 0; DataError and IoError as read_baked_scene().
+  /// an unknown clip and for a frame rate that is not above 0; DataError and IoError as those of PlanStore.
   World(const Path& plan, const std::string& clip, const Assets& assets, const WorldOptions& options = {});
   ~World();
   World(const World&) = delete;
@@ -66,7 +66,7 @@ class World {
   [[nodiscard]] const ManifestFrame& frame() const noexcept { return frame_; }
 
  private:
-  World(const PlannedDataset& planned, const Path& plan, const std::string& clip, const Assets& assets,
+  World(const PlannedDataset& planned, const PlanStore& store, const std::string& clip, const Assets& assets,
         const WorldOptions& options);
   [[nodiscard]] int number_at(double time_s) const;
   [[nodiscard]] double known_time(double time_s) const;

@@ -10,7 +10,7 @@
 
 #include "dataset/clip/heat_days.h"
 #include "dataset/clip/maker.h"
-#include "dataset/plan/plan_store.h"
+#include "dataset/plan/dataset_plan.h"
 #include "imaging/budget.h"
 #include "imaging/scene_radiance.h"
 #include "io/config/spec.h"

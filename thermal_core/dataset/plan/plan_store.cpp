@@ -1,145 +1,30 @@
 #include "dataset/plan/plan_store.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <limits>
+#include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/relative_name.h"
-#include "io/config/sections.h"
-#include "io/json/camera.h"
-#include "io/json/schema.h"
+#include "io/bake/baked_files.h"
+#include "io/bake/ground_maps_file.h"
+#include "io/json/file.h"
+#include "io/system/locks.h"
 #include "io/system/sha256.h"
+#include "raycast/ground_light.h"
+#include "scene/camera_geometry.h"
 
 namespace thermal {
 namespace {
 
-/// Clips or flights of a document as the planner sees them, with the cameras that differ from the dataset's.
-template <typename Spec>
-Json planned_entries(Json entries, const std::vector<Spec>& specs, const CameraIntrinsics& usual) {
-  for (std::size_t k = 0; k < specs.size(); ++k) {
-    (void)take_sections(entries[k]);
-    for (const char* key : {"season", "drawn"}) entries[k].erase(key);
-    const CameraIntrinsics& camera = specs[k].settings->camera;
-    if (camera != usual) entries[k]["camera"] = to_json(camera);
-  }
-  return entries;
-}
-
-ClipPlan clip_of(const Json& json) {
-  return {.id = json.at("id"),
-          .of_flight = json.at("of_flight"),
-          .start_s = json.at("start_s"),
-          .frames = json.at("frames"),
-          .frame_rate_hz = json.at("frame_rate_hz"),
-          .frames_with_actors = json.at("frames_with_actors"),
-          .min_agl_m = json.at("min_agl_m"),
-          .max_agl_m = json.at("max_agl_m"),
-          .mean_agl_m = json.at("mean_agl_m"),
-          .mean_look_angle_deg = json.at("mean_look_angle_deg")};
-}
-
-/// Whether a plan's clips are those of a config.
-class ClipCheck {
- public:
-  ClipCheck(const DatasetSpec& spec, const std::string& name) : spec_(spec), name_(name) {}
-
-  void check(const std::vector<ClipPlan>& clips) const {
-    std::set<std::string> ids;
-    std::int64_t frames = 0;
-    for (std::size_t k = 0; k < std::max(clips.size(), spec_.clips.size()); ++k) {
-      check(k < clips.size() ? clips[k] : ClipPlan(), k);
-      if (!ids.insert(clips[k].id).second) fail(k, "id", quoted(clips[k].id), "each id once");
-      frames += clips[k].frames;
-    }
-    constexpr int kMostFrames = std::numeric_limits<int>::max();
-    if (frames > kMostFrames)
-      throw DataError(
-          fmt::format("{}: clips have {} frames; expected at most {}", name_, frames, kMostFrames));
-  }
-
- private:
-  [[noreturn]] void fail(std::size_t k, const char* key, const std::string& value,
-                         const std::string& rule) const {
-    throw DataError(
-        fmt::format("{}: {}", name_, fault(fmt::format("clips[{}].{}", k, key), value, "", rule)));
-  }
-
-  void check(const ClipPlan& clip, std::size_t k) const {
-    if (k >= spec_.clips.size()) {
-      if (spec_.flight(clip.of_flight) == nullptr)
-        fail(k, "of_flight", quoted(clip.of_flight), "a flight of the config");
-      return;
-    }
-    const ClipSpec& own = spec_.clips[k];
-    if (clip.id != own.id) fail(k, "id", quoted(clip.id), quoted(own.id) + ", as in the config");
-    if (clip.of_flight != own.of_flight)
-      fail(k, "of_flight", quoted(clip.of_flight), quoted(own.of_flight) + ", for a clip of the config");
-    if (clip.frames != own.frames)
-      fail(k, "frames", std::to_string(clip.frames), fmt::format("{}, as in the config", own.frames));
-  }
-
-  static std::string quoted(const std::string& text) { return brief(Json(text)); }
-
-  const DatasetSpec& spec_;
-  const std::string& name_;
-};
-
-}  // namespace
-
-Json planned_part(const ResolvedConfig& config) {
-  const Json& all = config.document;
-  const DatasetSpec& spec = config.spec;
-  Json scene = all.at("scene");
-  scene.erase("temperatures");
-  Json render = {{"view_margin_px", spec.view_margin_px},
-                 {"posed_actors", all.at("render").at("posed_actors")}};
-  return {{"name", all.at("name")},
-          {"seed", all.at("seed")},
-          {"scene", std::move(scene)},
-          {"camera", to_json(spec.settings->camera)},
-          {"render", std::move(render)},
-          {"clips", planned_entries(all.at("clips"), spec.clips, spec.settings->camera)},
-          {"flights", planned_entries(all.at("flights"), spec.flights, spec.settings->camera)}};
-}
-
-DatasetPlan plan_of(const Json& document, const std::string& name, const Assets& assets) {
-  Json checked = document;
-  const std::vector<std::string> faults = check_and_fill(checked, assets.schema("plan"));
-  if (!faults.empty()) throw DataError(name + ": " + faults.front());
-  const Json& outline = checked.at("outline");
-  DatasetPlan plan{.clips = {},
-                   .cover_shares = outline.at("covers"),
-                   .actor_materials = outline.at("actors"),
-                   .config = std::move(checked.at("config")),
-                   .files = checked.at("files")};
-  for (const Json& clip : checked.at("clips")) plan.clips.push_back(clip_of(clip));
-  return plan;
-}
-
-ResolvedConfig with_flights_cut(ResolvedConfig config, const DatasetPlan& plan, const std::string& name) {
-  ClipCheck(config.spec, name).check(plan.clips);
-  std::vector<ClipSpec> clips = config.spec.clips;
-  for (std::size_t k = clips.size(); k < plan.clips.size(); ++k) {
-    const ClipPlan& clip = plan.clips[k];
-    clips.push_back(config.spec.flight(clip.of_flight)
-                        ->cut({.id = clip.id,
-                               .frames = clip.frames,
-                               .frame_rate_hz = clip.frame_rate_hz,
-                               .start_s = clip.start_s}));
-  }
-  return with_clips(std::move(config), std::move(clips));
-}
-
-namespace {
-
 using Sums = std::map<std::string, std::string>;  ///< SHA-256 by name, relative to the folder
 
-constexpr const char* kName = "checksums.json";
+constexpr const char* kSumsName = "checksums.json";
 
 /// IoError, or TryAgainError if the disk is full.
 std::vector<std::string> names_in(const Path& folder) {
@@ -152,7 +37,7 @@ std::vector<std::string> names_in(const Path& folder) {
       names.push_back(entry->path().lexically_relative(folder).string());
   }
   if (error) fail_at("read", folder, error.value());
-  std::erase(names, kName);
+  std::erase(names, kSumsName);
   return names;
 }
 
@@ -169,7 +54,7 @@ Sums sums_of(const Path& folder, const std::vector<std::string>& names) {
 
 /// DataError if there are none.
 Sums recorded_in(const Path& folder) {
-  const Path file = folder / kName;
+  const Path file = folder / kSumsName;
   if (!std::filesystem::exists(file))
     throw DataError(fmt::format("{} is missing; run veldt plan again", file.string()));
   const Json json = read_json(file);
@@ -187,12 +72,6 @@ std::vector<std::string> names_of(const Sums& sums) {
   return names;
 }
 
-/// What clips share lies in the folder itself or in a folder that is none of tracks.
-bool is_read_for(const std::string& name, const std::set<std::string>& clips) {
-  const Path path = name;
-  return path.parent_path() != "tracks" || clips.contains(path.stem().string());
-}
-
 /// DataError for the first file that is not as recorded.
 void check(const Path& folder, const std::vector<std::string>& names, const Sums& recorded) {
   for (const auto& [name, sum] : sums_of(folder, names)) {
@@ -200,35 +79,265 @@ void check(const Path& folder, const std::vector<std::string>& names, const Sums
     if (wanted == recorded.end() || wanted->second != sum)
       throw DataError(fmt::format(
           "{} is damaged, or of another plan: its SHA-256 is {}; {} has {}; run veldt plan again",
-          (folder / name).string(), sum, kName, wanted == recorded.end() ? "none" : wanted->second));
+          (folder / name).string(), sum, kSumsName, wanted == recorded.end() ? "none" : wanted->second));
+  }
+}
+
+void check_all(const Path& folder) {
+  const Sums recorded = recorded_in(folder);
+  check(folder, names_of(recorded), recorded);
+}
+
+bool is_unchanged(const Path& file, const std::string& sha256) {
+  try {
+    return sha256_of_file(file) == sha256;
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+bool needs_ground_maps(const DatasetSpec& spec) { return spec.physical && spec.heat_balance; }
+
+/// The disk space and the memory of a run are reckoned for the config's pictures.
+void check_size(const CameraIntrinsics& camera, const CameraIntrinsics& wanted, const Path& file) {
+  if (camera.width_px == wanted.width_px && camera.height_px == wanted.height_px) return;
+  throw DataError(
+      fmt::format("{}: {}", file.string(),
+                  fault("camera", fmt::format("{} x {}", camera.width_px, camera.height_px), "px",
+                        fmt::format("{} x {}, as in the config", wanted.width_px, wanted.height_px))));
+}
+
+/// A config of veldt plan's own: what is wrong with it is a fault of the file.
+ResolvedConfig read_resolved(const Path& file, const Assets& assets) {
+  try {
+    return resolve_config(read_json(file), file.string(), assets);
+  } catch (const ConfigError& fault) {
+    throw DataError(fault.what());
   }
 }
 
 }  // namespace
 
-void write_checksums(const Path& folder) {
-  write_file_atomically(folder / kName, to_text(Json(sums_of(folder, names_in(folder)))));
+std::vector<SunPath> sun_paths(const DatasetSpec& spec) {
+  std::vector<SunPath> paths;
+  for (const FlownWeather& flown : flown_weather(spec)) {
+    const SunPath& path = flown.weather.day.sun;
+    if (std::ranges::count(paths, path) == 0) paths.push_back(path);
+  }
+  return paths;
 }
 
-bool has_its_checksums(const Path& folder) {
+bool PlanStore::exists() const { return std::filesystem::exists(plan_file()); }
+
+PlanStore PlanStore::unfinished() const {
+  Path part = folder_;
+  return {part += ".part", assets_};
+}
+
+PlanState PlanStore::state(const ResolvedConfig& config, bool preview) const {
+  using enum PlanState::Kind;
+  PlanState found;
   try {
-    const Sums recorded = recorded_in(folder);
-    return sums_of(folder, names_of(recorded)) == recorded;
-  } catch (const Error&) {  // missing, or not to be read
+    for (const Path& needed : {plan_file(), preview ? folder_ / "preview" : plan_file()})
+      if (!std::filesystem::exists(needed)) throw DataError(needed.string() + " is missing");
+    found.kind = damaged;
+    const Json document = read_json(plan_file());
+    if (document.is_object() && document.contains("version") && document.at("version") != kPlanVersion)
+      found.kind = other_version;
+    found.plan = plan_of(document, plan_file().string(), assets_);
+    found.kind = other_config;
+    check_is_made_from(found.plan, config);
+    found.kind = damaged;
+    check_all(folder_);
+    found.kind = lacks_ground_maps;
+    if (!preview) check_ground_days(config.spec);
+    found.kind = complete;
+  } catch (const Error& fault) {
+    found.why = fault.what();
+  }
+  return found;
+}
+
+void PlanStore::check_is_made_from(const DatasetPlan& plan, const ResolvedConfig& config) const {
+  const Json part = planned_part(config);
+  if (plan.config != part)
+    throw DataError(fmt::format("{} is of another config: {}", plan_file().string(),
+                                fmt::join(differences(part, plan.config), ", ")));
+  for (const auto& [file, sha256] : plan.files)
+    if (!is_unchanged(assets_.home() / file, sha256))  // an absolute path replaces home()
+      throw DataError(fmt::format("{} was made from another {}", plan_file().string(), file));
+}
+
+void PlanStore::check_ground_days(const DatasetSpec& spec) const {
+  if (!needs_ground_maps(spec)) return;
+  const std::vector<SunPath> known = sun_paths_of_maps(folder_, assets_);
+  for (const SunPath& path : sun_paths(spec))
+    if (std::ranges::count(known, path) == 0)
+      throw DataError(fmt::format("{} has no maps of the ground for day {} at {} deg; run veldt plan again",
+                                  folder_.string(), path.day_of_year, path.latitude_deg));
+}
+
+PlannedDataset PlanStore::plan(const ResolvedConfig& config, const std::string& name,
+                               const PlanOptions& options,
+                               const std::function<void(const ResolvedConfig& cut)>& may_replace) const {
+  PlanState found = state(config, options.preview);
+  if (found.kind != PlanState::Kind::complete) found.plan = made_again(config, name, options, may_replace);
+  const std::optional<LeftOver> left_over = sweep_unless_locked(unfinished().folder_);
+  if (left_over && options.left_over) options.left_over(*left_over);
+  ResolvedConfig cut = with_flights_cut(config, found.plan, plan_file().string());
+  return {.config = std::move(cut), .plan = std::move(found.plan)};
+}
+
+DatasetPlan PlanStore::made_again(const ResolvedConfig& config, const std::string& name,
+                                  const PlanOptions& options,
+                                  const std::function<void(const ResolvedConfig& cut)>& may_replace) const {
+  const PlanStore part = unfinished();
+  const LockedFolder locked(part.folder_);
+  PlanState found = state(config, options.preview);  // another run may have made it
+  if (found.kind == PlanState::Kind::lacks_ground_maps) {
+    add_ground_maps(part.folder_, config.spec, found.plan, options);
+    write_checksums();  // killed in between, the plan is damaged, and made again
+  } else if (found.kind != PlanState::Kind::complete) {
+    std::vector<std::string> arguments = {"--out", part.folder_.string()};
+    if (is_undamaged()) arguments.insert(arguments.end(), {"--earlier", folder_.string()});
+    if (!options.blender.empty()) arguments.insert(arguments.end(), {"--blender", options.blender.string()});
+    if (options.preview) arguments.emplace_back("--preview");
+    found.plan = run_planner(config, name, options, arguments);
+    if (may_replace) may_replace(with_flights_cut(config, found.plan, part.plan_file().string()));
+    part.add_ground_maps(part.folder_, config.spec, found.plan, options);
+    part.write_checksums();
+    replace_folder(part.folder_, folder_);
+  }
+  return std::move(found.plan);
+}
+
+bool PlanStore::is_undamaged() const {
+  try {
+    check_all(folder_);
+    return true;
+  } catch (const Error&) {
     return false;
   }
 }
 
-void check_files(const Path& folder, const std::vector<std::string>& names) {
-  check(folder, names, recorded_in(folder));
+/// Light where the clips may see the ground or, where cameras may fly anywhere, everywhere; on all cores.
+void PlanStore::add_ground_maps(const Path& scratch, const DatasetSpec& spec, const DatasetPlan& plan,
+                                const PlanOptions& options) const {
+  if (options.preview || !needs_ground_maps(spec)) return;
+  with_threads(options.threads, [&] {
+    std::vector<SunDay> days;
+    for (const SunPath& path : sun_paths(spec)) days.push_back({.path = path, .sun = sun_hours(path)});
+    const auto show_cells = [&options](int done, int total) {
+      if (options.show_maps) options.show_maps({.clip = "ground maps", .done = done, .total = total});
+    };
+    const BakedScene scene = this->scene(spec);
+    std::optional<std::vector<GroundView>> views;
+    if (!spec.poses_all) views = ground_views(plan, scene);
+    write_ground_maps(make_ground_maps(scene, days, views, show_cells), folder_, scratch);
+  });
 }
 
-void check_files_of_clips(const Path& folder, const std::vector<std::string>& clips) {
-  const Sums recorded = recorded_in(folder);
-  const std::set<std::string> wanted(clips.begin(), clips.end());
+void PlanStore::write_checksums() const {
+  write_file_atomically(folder_ / kSumsName, to_text(Json(sums_of(folder_, names_in(folder_)))));
+}
+
+PlannedDataset PlanStore::plan_with_config(const ResolvedConfig& config, const std::string& name,
+                                           const PlanOptions& options) const {
+  const std::string text = to_text(config.document);
+  PlannedDataset planned = plan(config, name, options, [&](const ResolvedConfig& /*cut*/) {
+    write_file_atomically(unfinished().config_file(), text);
+  });
+  if (!has_content(config_file(), text)) {  // what is not planned may have changed
+    write_file_atomically(config_file(), text);
+    write_checksums();
+  }
+  return planned;
+}
+
+PlannedDataset PlanStore::open() const {
+  for (const Path& file : {plan_file(), config_file()})
+    if (!std::filesystem::exists(file))
+      throw ConfigError(fault("--plan", folder_.string(), "",
+                              "a folder that veldt plan wrote, with " + file.filename().string()));
+  check(folder_, {"plan.json", "config.json"}, recorded_in(folder_));
+  DatasetPlan plan = plan_of(read_json(plan_file()), plan_file().string(), assets_);
+  ResolvedConfig cut = with_flights_cut(read_resolved(config_file(), assets_), plan, plan_file().string());
+  return {.config = std::move(cut), .plan = std::move(plan)};
+}
+
+void PlanStore::check_clips(const std::vector<std::string>& clips) const {
+  const std::set<std::string> read(clips.begin(), clips.end());
+  const Sums recorded = recorded_in(folder_);
   std::vector<std::string> names = names_of(recorded);
-  std::erase_if(names, [&wanted](const std::string& name) { return !is_read_for(name, wanted); });
-  check(folder, names, recorded);
+  std::erase_if(names, [&read](const Path& name) {
+    return name.parent_path() == "tracks" && !read.contains(name.stem().string());
+  });
+  check(folder_, names, recorded);
+}
+
+BakedScene PlanStore::scene(const DatasetSpec& spec) const {
+  BakedScene scene = read_baked_scene(folder_, assets_);
+  check_size(scene.camera, spec.settings->camera, folder_ / "scene.json");
+  return scene;
+}
+
+BakedTrack PlanStore::track(const std::string& clip, int frames, const BakedScene& scene) const {
+  BakedTrack track = read_baked_track(folder_, clip, scene, assets_);
+  const Path file = folder_ / "tracks" / (clip + ".json");
+  if (track.frames != static_cast<std::size_t>(frames))
+    throw DataError(fmt::format(
+        "{}: {}", file.string(),
+        fault("frames", std::to_string(track.frames), "", fmt::format("{}, as plan.json has them", frames))));
+  if (track.camera) check_size(*track.camera, scene.camera, file);
+  return track;
+}
+
+std::vector<GroundView> PlanStore::ground_views(const DatasetPlan& plan, const BakedScene& scene) const {
+  std::vector<GroundView> views;
+  for (const ClipPlan& clip : plan.clips) {
+    const BakedTrack track = this->track(clip.id, clip.frames, scene);
+    Manifest manifest;
+    manifest.camera = track.camera.value_or(scene.camera);
+    manifest.overscan_px = scene.view_margin_px;
+    views.push_back({.camera = pixels_camera(manifest),
+                     .camera_to_world = {track.camera_to_world.begin(), track.camera_to_world.end()}});
+  }
+  return views;
+}
+
+std::shared_ptr<const GroundMaps> PlanStore::ground_maps(const DatasetSpec& spec,
+                                                         const BakedScene& scene) const {
+  if (!needs_ground_maps(spec)) return nullptr;
+  check_ground_days(spec);
+  return std::make_shared<const GroundMaps>(read_ground_maps(folder_, scene.ground, assets_));
+}
+
+void PlanStore::copy_ground_maps(const Path& passes) const {
+  constexpr auto kReplace = std::filesystem::copy_options::overwrite_existing;
+  for (const char* name : {"ground.bin", "ground.json"})
+    if (std::filesystem::exists(folder_ / name))
+      std::filesystem::copy_file(folder_ / name, passes / name, kReplace);
+}
+
+PlannedDataset plan_in_dataset(const Path& out, const ResolvedConfig& config, const std::string& name,
+                               const PlanOptions& options, CheckOut check) {
+  const Layout layout{out};
+  const bool was_there = std::filesystem::exists(out);
+  try {
+    const FolderLock lock(out, {});
+    PlannedDataset planned;
+    lock.in_turn([&] {
+      if (options.preview) make_own_folder(layout.preview());
+      const PlanStore store(options.preview ? layout.preview() / "plan" : layout.plan(), options.assets);
+      planned = store.plan(config, name, options, [&](const ResolvedConfig& cut) {
+        if (check != nullptr) check(layout, cut);
+      });
+    });
+    return planned;
+  } catch (...) {
+    if (!was_there) (void)sweep_folder(out);  // with nothing in it
+    throw;
+  }
 }
 
 }  // namespace thermal

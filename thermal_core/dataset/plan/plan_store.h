@@ -1,66 +1,112 @@
 #pragma once
 
-#include <map>
+#include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "dataset/dataset_file.h"
+#include "dataset/plan/dataset_plan.h"
+#include "dataset/plan/planner.h"
+#include "heat/weather/sun.h"
 #include "io/assets.h"
 #include "io/config/config.h"
-#include "io/json/file.h"
 #include "io/system/files.h"
+#include "scene/baked_scene.h"
+#include "scene/ground_maps.h"
+#include "scene/seen_ground.h"
 
 namespace thermal {
 
-/// Properties of a clip that are known before rendering.
-struct ClipPlan {
-  std::string id;
-  std::string of_flight;  ///< the flight it is cut from; empty if there is none
-  double start_s = 0;
-  int frames = 0;
-  double frame_rate_hz = 0;
-  int frames_with_actors = 0;
-  double min_agl_m = 0;
-  double max_agl_m = 0;
-  double mean_agl_m = 0;
-  double mean_look_angle_deg = 0;
+/// What the folder of a plan is to a config.
+struct PlanState {
+  enum class Kind { missing, other_version, other_config, damaged, lacks_ground_maps, complete };
+  Kind kind = Kind::missing;
+  std::string why = {};   ///< it is not complete
+  DatasetPlan plan = {};  ///< if it is complete or lacks nothing but maps of the ground
 };
 
-/// What a config means, worked out once by blender_scripts/plan_scene.py.
-struct DatasetPlan {
-  std::vector<ClipPlan> clips;  ///< the config's own, then those cut from its flights
-  std::map<std::string, double>
-      cover_shares;  ///< of materials seen from above, without actors; their sum is 1
-  std::vector<std::string> actor_materials;
-  Json config = {};                          ///< what it was made from: planned_part() of a config
-  std::map<std::string, std::string> files;  ///< SHA-256 of the other files it was made from, by path
+/// The days whose sun heats the ground of a config's clips and flights, each once.
+[[nodiscard]] std::vector<SunPath> sun_paths(const DatasetSpec& spec);
+
+/// The folder of a plan: plan.json, the baked scene and the tracks of clips, which the planner writes; maps of the ground
+/// where the heat balance of the physical model needs them, for some plans the config, and SHA-256 of all other files,
+/// which this class adds. Python reads it unchecked.
+class PlanStore {
+ public:
+  PlanStore(Path folder, const Assets& assets) : folder_(std::move(folder)), assets_(assets) {}
+
+  /// Whether there is a plan, of any state.
+  [[nodiscard]] bool exists() const;
+
+  /// Reads all files, the large ones last. `preview`: the plan is for pictures, which need no maps of the ground.
+  [[nodiscard]] PlanState state(const ResolvedConfig& config, bool preview = false) const;
+
+  /// plan_dataset() with all files. A complete plan is used again, and maps of the ground that it lacks are added. Any
+  /// other is replaced in one step by a new one, after `may_replace` was called with the config cut to it; unless that
+  /// throws. Of two runs at once, one plans, and the other waits for it.
+  PlannedDataset plan(const ResolvedConfig& config, const std::string& name, const PlanOptions& options,
+                      const std::function<void(const ResolvedConfig& cut)>& may_replace = {}) const;
+
+  /// The same with the resolved config, for open().
+  PlannedDataset plan_with_config(const ResolvedConfig& config, const std::string& name,
+                                  const PlanOptions& options) const;
+
+  /// Reads what plan_with_config() wrote. Plans nothing, and does not look at the files that the plan was made from:
+  /// they need not exist on this machine. ConfigError with what is missing if the folder is no such plan; DataError if
+  /// plan or config is damaged, of another plan, or of another version.
+  [[nodiscard]] PlannedDataset open() const;
+
+  /// DataError for the first damaged file of those that making these clips reads.
+  void check_clips(const std::vector<std::string>& clips) const;
+
+  /// Errors as read_baked_scene(); DataError too if its picture is not the config's.
+  [[nodiscard]] BakedScene scene(const DatasetSpec& spec) const;
+
+  /// Errors as read_baked_track(); DataError too if it has not the clip's frames, or another picture than the scene.
+  [[nodiscard]] BakedTrack track(const ClipSpec& clip, const BakedScene& scene) const {
+    return track(clip.id, clip.frames, scene);
+  }
+  [[nodiscard]] BakedTrack track(const std::string& clip, int frames, const BakedScene& scene) const;
+
+  /// What the clips of the plan show, with all that a lens or overscan adds. Errors as track().
+  [[nodiscard]] std::vector<GroundView> ground_views(const DatasetPlan& plan, const BakedScene& scene) const;
+
+  /// Null if the config's temperatures need none. DataError if they lack days of the config; errors as read_ground_maps().
+  [[nodiscard]] std::shared_ptr<const GroundMaps> ground_maps(const DatasetSpec& spec,
+                                                              const BakedScene& scene) const;
+
+  /// Copies the maps of the ground, if there are any, to a folder of passes, for their conversion.
+  void copy_ground_maps(const Path& passes) const;
+
+  /// Completes the folder: a plan that was damaged, or mixed with another, would make other frames without any sign of it.
+  void write_checksums() const;
+
+  [[nodiscard]] Path config_file() const { return folder_ / "config.json"; }
+
+ private:
+  [[nodiscard]] Path plan_file() const { return folder_ / "plan.json"; }
+  [[nodiscard]] PlanStore unfinished() const;
+  [[nodiscard]] bool is_undamaged() const;
+  void check_is_made_from(const DatasetPlan& plan, const ResolvedConfig& config) const;
+  void check_ground_days(const DatasetSpec& spec) const;
+  [[nodiscard]] DatasetPlan made_again(
+      const ResolvedConfig& config, const std::string& name, const PlanOptions& options,
+      const std::function<void(const ResolvedConfig& cut)>& may_replace) const;
+  void add_ground_maps(const Path& scratch, const DatasetSpec& spec, const DatasetPlan& plan,
+                       const PlanOptions& options) const;
+
+  Path folder_;
+  Assets assets_;
 };
 
-/// Version of the format of plans.
-inline constexpr int kPlanVersion = 1;
+/// ConfigError unless a run with this config may go on in a dataset's folder.
+using CheckOut = void (*)(const Layout& out, const ResolvedConfig& cut);
 
-/// The part of a config that its plan depends on; with another sensor, weather or season, a plan is the same.
-[[nodiscard]] Json planned_part(const ResolvedConfig& config);
-
-/// Reads a plan. DataError with `name` if it is damaged or of another version.
-[[nodiscard]] DatasetPlan plan_of(const Json& document, const std::string& name, const Assets& assets);
-
-/// The same config with its flights cut into the clips of its plan, which follow its own. DataError with `name`, the
-/// plan's, unless the plan has the config's own clips, then clips of its flights, each id once, and no more frames than
-/// an int counts.
-[[nodiscard]] ResolvedConfig with_flights_cut(ResolvedConfig config, const DatasetPlan& plan,
-                                              const std::string& name);
-
-/// Writes checksums.json, with the SHA-256 of all other files in a plan's folder: a plan that was damaged, or mixed with
-/// another, would make other frames without any sign of it.
-void write_checksums(const Path& folder);
-
-/// Whether all files that checksums.json lists are there, and unchanged. Others may have been added.
-[[nodiscard]] bool has_its_checksums(const Path& folder);
-
-/// DataError unless these files, given relative to the folder, are as checksums.json has them.
-void check_files(const Path& folder, const std::vector<std::string>& names);
-
-/// The same for all files that making these clips reads.
-void check_files_of_clips(const Path& folder, const std::vector<std::string>& clips);
+/// Plans a dataset into OUT/plan; for a preview, into OUT/preview/plan. One of several runs that share the folder does
+/// so; the others wait for it. `check` is asked before a plan is replaced: if it throws, nothing has changed.
+PlannedDataset plan_in_dataset(const Path& out, const ResolvedConfig& config, const std::string& name,
+                               const PlanOptions& options, CheckOut check = nullptr);
 
 }  // namespace thermal

@@ -22,7 +22,7 @@ namespace thermal {
 namespace {
 
 constexpr double kStepH = 0.5;
-constexpr std::size_t kMostDays = 4;  // of clips with weather of their own
+constexpr std::size_t kMostDaysShown = 4;  // of clips with weather of their own
 
 std::optional<DatasetSpec> spec_of(const Json& document, const Assets& assets) {
   try {
@@ -50,7 +50,7 @@ Json day_figures(const Json& document, const Assets& assets) {
   if (!spec || !spec->physical || !spec->heat_balance) return days;
   const auto materials = heat_of_materials(read_materials(assets));
   std::vector<FlownWeather> flown = flown_weather(*spec);
-  flown.resize(std::min(flown.size(), kMostDays));
+  flown.resize(std::min(flown.size(), kMostDaysShown));
   for (const auto& [season, weather, flown_h] : flown) {
     const DayWeather& day = weather.day;
     Json by_material = Json::object();

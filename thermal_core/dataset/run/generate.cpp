@@ -11,16 +11,14 @@
 #include "base/parallel.h"
 #include "dataset/clip/maker.h"
 #include "dataset/outline/outline.h"
-#include "dataset/plan/planner.h"
+#include "dataset/plan/plan_store.h"
 #include "dataset/run/monitor.h"
 #include "dataset/run/options.h"
 #include "dataset/run/passes_folder.h"
 #include "dataset/run/render_job.h"
 #include "dataset/run/tracing.h"
 #include "dataset/run/transaction.h"
-#include "io/bake/ground_maps_file.h"
 #include "io/config/materials.h"
-#include "io/manifest_file.h"
 
 namespace thermal {
 namespace {
@@ -47,10 +45,10 @@ class Generator {
         options_(options),
         hooks_(hooks),
         layout_{options.out, options.scratch},
+        store_(options.plan, options.assets),
         chosen_(choose_clips(spec_, options.clips, options.shard)),
         materials_(read_materials(options.assets)),
         heat_(materials_),
-        ground_(read_needed_ground_maps(options.plan, spec_, options.assets)),
         kept_(spec_, outline_of(spec_, plan, materials_)),
         transaction_(layout_, config.document, ids_of(spec_.clips), to_json(kept_.budget()),
                      ids_of(chosen_)) {
@@ -64,7 +62,7 @@ class Generator {
       transaction_.begin([this] {
         if (options_.keep_passes || spec_.engine == Engine::blender)
           begin_passes(layout_, config_, ids_of(pending_));
-        if (options_.keep_passes && ground_) copy_ground_maps(options_.plan, layout_.passes());
+        if (options_.keep_passes) store_.copy_ground_maps(layout_.passes());
       });
       make_pending(monitor);
     }
@@ -79,15 +77,17 @@ class Generator {
  private:
   void make_pending(RunMonitor& monitor) {
     if (spec_.engine == Engine::embree) {
-      const PlanTracer tracer(options_.plan, spec_, options_.assets);
+      const PlanTracer tracer(store_, spec_);
+      ground_ = store_.ground_maps(spec_, tracer.scene());
       for (const ClipSpec& clip : pending_) try_make(clip, tracer, monitor);
       return;
     }
-    write_manifests(spec_, options_, pending_);
-    const ClipWork work = [this, &monitor](const std::string& id, RenderJob& job, const Stop& stop_wanted) {
-      try_make(spec_.clip(id, "clips"), job, stop_wanted, monitor);
+    const PlannedManifests manifests(spec_, options_, pending_);
+    ground_ = store_.ground_maps(spec_, manifests.scene());
+    const ClipWork work = [&](const std::string& id, RenderJob& job, const Stop& stop_wanted) {
+      try_make(spec_.clip(id, "clips"), manifests, job, stop_wanted, monitor);
     };
-    run_workers(passes_tasks(spec_, options_, ids_of(pending_), monitor), options_.threads, work,
+    run_workers(passes_tasks(spec_, options_, ids_of(pending_), manifests, monitor), options_.threads, work,
                 [&monitor] { return monitor.stop_wanted(); });
   }
 
@@ -101,12 +101,14 @@ class Generator {
     }
   }
 
-  void try_make(const ClipSpec& clip, RenderJob& job, const Stop& stop_wanted, RunMonitor& monitor) {
+  void try_make(const ClipSpec& clip, const PlannedManifests& manifests, RenderJob& job,
+                const Stop& stop_wanted, RunMonitor& monitor) {
     try {
-      commit(clip, make(clip, job, stop_wanted, monitor), monitor);
+      commit(clip, make(clip, manifests, job, stop_wanted, monitor), monitor);
     } catch (const ClipLost& fault) {
       fail_clip(clip, fault.what(), fault.killed(), monitor);
     } catch (const DataError& fault) {
+      job.rethrow_fault();
       reject(clip, fault.what(), monitor);
     } catch (const IoError& fault) {
       job.rethrow_fault();
@@ -139,12 +141,11 @@ class Generator {
                      clip_hooks);
   }
 
-  ClipRecord make(const ClipSpec& clip, RenderJob& job, const Stop& stop_wanted, RunMonitor& monitor) {
+  ClipRecord make(const ClipSpec& clip, const PlannedManifests& manifests, RenderJob& job,
+                  const Stop& stop_wanted, RunMonitor& monitor) {
     monitor.begin(clip);
     SpaceWatch space(spec_, clip, layout_, {}, [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
-    const Path folder = layout_.passes(clip.id);
-    const ClipPasses passes = {.manifest = read_manifest(folder / "manifest.json", options_.assets),
-                               .folder = folder};
+    const ClipPasses passes = {.manifest = manifests.of(clip), .folder = layout_.passes(clip.id)};
     const ClipHooks clip_hooks = {.wait_for_frame =
                                       [&](int frame) {
                                         job.wait_for_frame(clip.id, frame, stop_wanted);
@@ -197,10 +198,11 @@ class Generator {
   const GenerateOptions& options_;
   const RunHooks& hooks_;
   Layout layout_;
+  PlanStore store_;
   std::vector<ClipSpec> chosen_;
   MaterialLibrary materials_;
   HeatDays heat_;
-  std::shared_ptr<const GroundMaps> ground_;  ///< null: not needed, or an old plan's
+  std::shared_ptr<const GroundMaps> ground_;  ///< null: not needed
   KeptTerms kept_;
   DatasetTransaction transaction_;  ///< of the chosen clips
   std::vector<ClipSpec> pending_;

@@ -43,7 +43,7 @@ struct Shard {
 struct GenerateOptions {
   Assets assets;
   Path out;
-  Path plan;  ///< folder of the plan; of plan_to_generate(): OUT/plan
+  Path plan;  ///< its folder
   /// Clips are made in this folder, which belongs to this run alone, and put into `out` when complete. `out` may then be
   /// an object store: it sees whole new files only, a clip's record last. Empty: in `out` itself.
   Path scratch = {};

@@ -8,7 +8,6 @@
 #include "base/parallel.h"
 #include "dataset/run/render_job.h"
 #include "dataset/run/tracing.h"
-#include "io/bake/baked_files.h"
 #include "io/manifest_file.h"
 #include "io/system/files.h"
 
@@ -62,24 +61,32 @@ std::vector<LeftOver> end_passes(const Layout& layout, const ResolvedConfig& con
   return left_over;
 }
 
-void write_manifests(const DatasetSpec& spec, const GenerateOptions& options,
-                     const std::vector<ClipSpec>& clips) {
-  const Layout layout{options.out, options.scratch};
-  const BakedScene scene = read_baked_scene(options.plan, options.assets);
-  for (const ClipSpec& clip : clips) {
-    const BakedTrack track = read_baked_track(options.plan, clip.id, scene, options.assets);
-    const std::string text = to_text(manifest_of(scene, track, spec, clip));
-    const Path folder = layout.passes(clip.id);
-    const Path file = folder / "manifest.json";
-    if (std::filesystem::exists(folder / passes_name(0)) &&
-        !(std::filesystem::exists(file) && read_file(file) == text))
-      throw ConfigError(fault("--out", folder.string(), "", "no frames there, or frames of this plan"));
-    write_file_atomically(file, text);
-  }
+PlannedManifests::PlannedManifests(const DatasetSpec& spec, const GenerateOptions& options,
+                                   const std::vector<ClipSpec>& clips)
+    : spec_(spec),
+      layout_{options.out, options.scratch},
+      store_(options.plan, options.assets),
+      scene_(store_.scene(spec)) {
+  for (const ClipSpec& clip : clips)
+    if (std::filesystem::exists(layout_.passes(clip.id) / passes_name(0))) write(clip);
+}
+
+Manifest PlannedManifests::of(const ClipSpec& clip) const {
+  return manifest_of(scene_, store_.track(clip, scene_), spec_, clip);
+}
+
+void PlannedManifests::write(const ClipSpec& clip) const {
+  const std::string text = to_text(of(clip));
+  const Path folder = layout_.passes(clip.id);
+  if (has_content(folder / "manifest.json", text)) return;
+  if (std::filesystem::exists(folder / passes_name(0)))
+    throw ConfigError(fault("--out", folder.string(), "", "no frames there, or frames of this plan"));
+  write_file_atomically(folder / "manifest.json", text);
 }
 
 std::vector<RenderJob::Task> passes_tasks(const DatasetSpec& spec, const GenerateOptions& options,
-                                          const std::vector<std::string>& clips, RunMonitor& monitor) {
+                                          const std::vector<std::string>& clips,
+                                          const PlannedManifests& manifests, RunMonitor& monitor) {
   const Layout layout{options.out, options.scratch};
   const auto hands = deal_clips(clips, options.jobs);
   const int threads = thread_count(options.threads);
@@ -96,9 +103,10 @@ std::vector<RenderJob::Task> passes_tasks(const DatasetSpec& spec, const Generat
                      .supersample = spec.supersample,
                      .actor_layer = spec.actor_layer,
                      .preview = false,
-                     .restarted = [&monitor](const std::string& clip, const std::string& why) {
-                       monitor.restarted(clip, why);
-                     }});
+                     .prepare = [&manifests, &spec](
+                                    const std::string& clip) { manifests.write(spec.clip(clip, "clips")); },
+                     .restarted = [&monitor](const std::string& clip,
+                                             const std::string& why) { monitor.restarted(clip, why); }});
   }
   return tasks;
 }

@@ -23,15 +23,34 @@ void check_same_passes(const Layout& layout, const ResolvedConfig& config);
 std::vector<LeftOver> end_passes(const Layout& layout, const ResolvedConfig& config,
                                  const std::vector<std::string>& clips);
 
-/// Writes the manifests of clips that Blender is to render. ConfigError if a folder holds frames of another manifest;
-/// DataError or IoError as read_baked_scene().
-void write_manifests(const DatasetSpec& spec, const GenerateOptions& options,
-                     const std::vector<ClipSpec>& clips);
+/// The manifests of planned clips that Blender renders.
+class PlannedManifests {
+ public:
+  /// Reads the scene. The dataset's clips and the options must outlive this object. Errors as PlanStore::scene() and, for
+  /// those of `clips` that have frames, as write().
+  PlannedManifests(const DatasetSpec& spec, const GenerateOptions& options,
+                   const std::vector<ClipSpec>& clips);
 
-/// The render jobs for these clips, one task each. They report restarts to the monitor.
+  [[nodiscard]] const BakedScene& scene() const noexcept { return scene_; }
+
+  /// Errors as PlanStore::track().
+  [[nodiscard]] Manifest of(const ClipSpec& clip) const;
+
+  /// Puts one beside the passes of its clip, unless it is there. ConfigError if there are frames of another.
+  void write(const ClipSpec& clip) const;
+
+ private:
+  const DatasetSpec& spec_;
+  Layout layout_;
+  PlanStore store_;
+  BakedScene scene_;
+};
+
+/// The render jobs for these clips, one task each. They write manifests, and report restarts to the monitor.
 [[nodiscard]] std::vector<RenderJob::Task> passes_tasks(const DatasetSpec& spec,
                                                         const GenerateOptions& options,
                                                         const std::vector<std::string>& clips,
+                                                        const PlannedManifests& manifests,
                                                         RunMonitor& monitor);
 
 }  // namespace thermal

@@ -7,12 +7,12 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "dataset/clip/task.h"
+#include "dataset/plan/plan_store.h"
 #include "dataset/run/monitor.h"
 #include "dataset/run/options.h"
 #include "dataset/run/passes_folder.h"
 #include "dataset/run/render_job.h"
 #include "dataset/run/tracing.h"
-#include "io/bake/ground_maps_file.h"
 #include "io/system/child_process.h"
 #include "io/system/locks.h"
 
@@ -95,18 +95,18 @@ RunOutcome render(const ResolvedConfig& config, const GenerateOptions& options, 
   lock.in_turn([&] {
     check_same_passes(layout, config);
     begin_passes(layout, config, ids_of(clips));
-    copy_ground_maps(options.plan, layout.passes());
+    PlanStore(options.plan, options.assets).copy_ground_maps(layout.passes());
   });
   RunMonitor monitor(hooks, options.out, frames_of(clips));
   if (spec.engine == Engine::embree) {
     with_threads(options.threads, [&] {
-      trace_clips(clips, PlanTracer(options.plan, spec, options.assets), spec, layout, monitor);
+      trace_clips(clips, PlanTracer({options.plan, options.assets}, spec), spec, layout, monitor);
     });
     RunOutcome outcome = monitor.outcome();
     outcome.complete = true;
     return outcome;
   }
-  write_manifests(spec, options, clips);
+  const PlannedManifests manifests(spec, options, clips);
   const ClipWork work = [&](const std::string& id, RenderJob& job, const std::function<bool()>& stop_wanted) {
     const ClipSpec& clip = spec.clip(id, "clips");
     monitor.begin(clip);
@@ -119,7 +119,7 @@ RunOutcome render(const ResolvedConfig& config, const GenerateOptions& options, 
       monitor.lost(clip, fault.what(), fault.killed());
     }
   };
-  run_workers(passes_tasks(spec, options, ids_of(clips), monitor), options.threads, work,
+  run_workers(passes_tasks(spec, options, ids_of(clips), manifests, monitor), options.threads, work,
               [&monitor] { return monitor.stop_wanted(); });
   RunOutcome outcome = monitor.outcome();
   outcome.complete = outcome.failed.empty();

@@ -13,11 +13,11 @@ namespace thermal {
 [[nodiscard]] Path find_blender(const std::string& named, const std::string& option);
 
 /// Renders passes and manifests only, into `passes/<clip>`; otherwise like generate(). `config` has the clips of the
-/// plan, which plan_to_render() has written.
+/// plan in options.plan.
 RunOutcome render(const ResolvedConfig& config, const GenerateOptions& options, const RunHooks& hooks);
 
 /// Renders a map of the config's place, and colour stills of it, into preview/; overwrites earlier ones. Returns the
-/// number of pictures. plan_to_preview() has written the plan.
+/// number of pictures. plan_in_dataset() has written the plan.
 int preview(const ResolvedConfig& config, const GenerateOptions& options, const RunHooks& hooks);
 
 }  // namespace thermal

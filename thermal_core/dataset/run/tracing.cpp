@@ -9,7 +9,6 @@
 #include "base/text.h"
 #include "dataset/clip/task.h"
 #include "dataset/dataset_file.h"
-#include "io/bake/baked_files.h"
 #include "io/exr/passes_writer.h"
 #include "io/manifest_file.h"
 #include "scene/camera_geometry.h"
@@ -56,23 +55,6 @@ class TracedPasses : public PassSource {
   ClipTracer tracer_;
   std::optional<Kept> kept_;
 };
-
-/// Frames are asked for as the plan counts them.
-void check_frames(const BakedTrack& track, const ClipSpec& clip, const Path& folder) {
-  if (track.frames == static_cast<std::size_t>(clip.frames)) return;
-  throw DataError(fmt::format("{}: {}", (folder / "tracks" / (clip.id + ".json")).string(),
-                              fault("frames", std::to_string(track.frames), "",
-                                    fmt::format("{}, as plan.json has them", clip.frames))));
-}
-
-/// The disk space and the memory of a run are reckoned for the dataset's pictures.
-void check_camera(const CameraIntrinsics& camera, const DatasetSpec& spec, const Path& file) {
-  if (camera.width_px == spec.width_px && camera.height_px == spec.height_px) return;
-  throw DataError(
-      fmt::format("{}: {}", file.string(),
-                  fault("camera", fmt::format("{} x {}", camera.width_px, camera.height_px), "px",
-                        fmt::format("{} x {}, as in the config", spec.width_px, spec.height_px))));
-}
 
 }  // namespace
 
@@ -125,19 +107,11 @@ Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const Dat
   return manifest;
 }
 
-PlanTracer::PlanTracer(const Path& folder, const DatasetSpec& spec, const Assets& assets)
-    : folder_(folder),
-      spec_(spec),
-      assets_(assets),
-      scene_(read_baked_scene(folder, assets)),
-      caster_(scene_) {
-  check_camera(scene_.camera, spec, folder / "scene.json");
-}
+PlanTracer::PlanTracer(PlanStore store, const DatasetSpec& spec)
+    : store_(std::move(store)), spec_(spec), scene_(store_.scene(spec)), caster_(scene_) {}
 
 ClipPasses PlanTracer::trace(const ClipSpec& clip, const Path& folder, bool keep) const {
-  BakedTrack track = read_baked_track(folder_, clip.id, scene_, assets_);
-  check_frames(track, clip, folder_);
-  if (track.camera) check_camera(*track.camera, spec_, folder_ / "tracks" / (clip.id + ".json"));
+  BakedTrack track = store_.track(clip, scene_);
   ClipPasses passes{.manifest = manifest_of(scene_, track, spec_, clip), .folder = folder};
   std::optional<Kept> kept;
   if (keep) {

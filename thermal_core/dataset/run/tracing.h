@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "dataset/clip/task.h"
-#include "io/assets.h"
+#include "dataset/plan/plan_store.h"
 #include "io/config/spec.h"
 #include "raycast/ray_caster.h"
 #include "scene/baked_scene.h"
@@ -21,20 +21,20 @@ namespace thermal {
 /// The engine `embree` on one plan: renders passes of its clips in memory.
 class PlanTracer {
  public:
-  /// Reads the baked scene in `folder` and builds its structures. DataError or IoError as read_baked_scene(), also if
-  /// its picture is not the dataset's. `spec`, with the plan's clips, must outlive this object.
-  PlanTracer(const Path& folder, const DatasetSpec& spec, const Assets& assets);
+  /// Reads the baked scene and builds its structures. Errors as PlanStore::scene(). `spec`, with the plan's clips, must
+  /// outlive this object.
+  PlanTracer(PlanStore store, const DatasetSpec& spec);
+
+  [[nodiscard]] const BakedScene& scene() const noexcept { return scene_; }
 
   /// A clip's passes. Each frame is rendered when it is read. `keep` writes the frames read, and the manifest, to
   /// `folder` as well, as Blender does; frames whose files exist are rendered, but not written again.
-  /// This object must outlive them. DataError or IoError as read_baked_track(), also if the
-  /// track has not the plan's frames.
+  /// This object must outlive them. Errors as PlanStore::track().
   [[nodiscard]] ClipPasses trace(const ClipSpec& clip, const Path& folder, bool keep) const;
 
  private:
-  Path folder_;
+  PlanStore store_;
   const DatasetSpec& spec_;
-  Assets assets_;
   BakedScene scene_;
   RayCaster caster_;
 };

@@ -43,7 +43,7 @@ class SceneReader {
     for (const Json& object : json.at("objects")) scene_.objects.push_back(manifest_object_of(object));
     for (const Json& material : json.at("materials"))
       scene_.materials.push_back(manifest_material_of(material));
-    scene_.mirrors = json.value("mirrors", std::set<std::string>());
+    scene_.mirrors = json.at("mirrors").get<std::set<std::string>>();
     check_header();
     for (const ManifestObject& object : scene_.objects) {
       objects_.insert(object.index);

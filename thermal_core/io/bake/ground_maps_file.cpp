@@ -121,8 +121,6 @@ Json header_of(const GroundMaps& maps) {
 
 }  // namespace
 
-bool has_ground_maps(const Path& folder) { return std::filesystem::exists(header_in(folder)); }
-
 std::vector<SunPath> sun_paths_of_maps(const Path& folder, const Assets& assets) {
   const Path file = header_in(folder);
   Json header = read_json(file);
@@ -137,13 +135,6 @@ GroundMaps read_ground_maps(const Path& folder, const BakedGround& ground, const
 
 GroundMaps read_ground_maps(const Path& folder, const Assets& assets) {
   return MapsReader(folder, assets).read(std::nullopt);
-}
-
-void copy_ground_maps(const Path& plan, const Path& passes) {
-  if (!has_ground_maps(plan)) return;
-  constexpr auto kReplace = std::filesystem::copy_options::overwrite_existing;
-  for (const char* name : {"ground.bin", "ground.json"})
-    std::filesystem::copy_file(plan / name, passes / name, kReplace);
 }
 
 void write_ground_maps(const GroundMaps& maps, const Path& folder, const Path& scratch) {

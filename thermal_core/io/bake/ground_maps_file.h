@@ -9,9 +9,6 @@
 
 namespace thermal {
 
-/// Whether a plan's folder has maps of the ground.
-[[nodiscard]] bool has_ground_maps(const Path& folder);
-
 /// The days of the maps' hours of sun, from the header alone. DataError as read_ground_maps().
 [[nodiscard]] std::vector<SunPath> sun_paths_of_maps(const Path& folder, const Assets& assets);
 
@@ -23,9 +20,6 @@ namespace thermal {
 
 /// The same for maps beside passes, without a scene.
 [[nodiscard]] GroundMaps read_ground_maps(const Path& folder, const Assets& assets);
-
-/// Copies a plan's maps, if any, to a folder of passes, for their conversion.
-void copy_ground_maps(const Path& plan, const Path& passes);
 
 /// Writes maps, ground.json last; each file is complete or unchanged. `scratch` is a folder for incomplete files, on
 /// the same disk. IoError with the file and the system's reason; TryAgainError if the disk is full.

@@ -104,6 +104,10 @@ std::string read_file(const Path& file) {
   return content;
 }
 
+bool has_content(const Path& file, std::string_view content) {
+  return std::filesystem::exists(file) && read_file(file) == content;
+}
+
 std::string sha256_of_file(const Path& file) {
   Sha256 sum;
   read_pieces(file, [&sum](std::string_view piece) { sum.add(piece); });

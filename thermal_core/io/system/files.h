@@ -31,6 +31,9 @@ void read_pieces(const Path& file, const std::function<void(std::string_view pie
 /// Whole content, at most 1 GiB. IoError as read_pieces(), or if it is larger.
 [[nodiscard]] std::string read_file(const Path& file);
 
+/// Whether a file exists and has this content. IoError as read_file().
+[[nodiscard]] bool has_content(const Path& file, std::string_view content);
+
 /// SHA-256 of a file's content, of any size, in constant memory. IoError as read_pieces().
 [[nodiscard]] std::string sha256_of_file(const Path& file);
 
