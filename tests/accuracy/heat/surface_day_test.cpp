@@ -352,7 +352,7 @@ TEST_CASE("The periodic day does not depend on the temperature that a body start
 }
 
 TEST_CASE("Between steps temperatures are straight lines, over midnight too") {
-  const SurfaceDay day = {.surface_k = {280, 290, 300, 270}};  // at 6, 12, 18 and 24 h
+  const SurfaceDay day = {.surface_k = {280, 290, 300, 270}, .layers_k = {}};  // at 6, 12, 18 and 24 h
   CHECK(day.at_k(6) == 280);
   CHECK(day.at_k(12) == 290);
   CHECK(day.at_k(18) == 300);

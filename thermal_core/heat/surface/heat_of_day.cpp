@@ -127,17 +127,17 @@ const GroundHeat& ground_below(const std::map<std::string, MaterialHeat>& materi
 double moisture_after_rain(double days) noexcept { return 0.7 * std::exp(-days / 6); }
 
 SurfaceDay day_of(const MaterialHeat& heat, const GroundHeat& soil, const SurfaceExposure& exposure,
-                  const DayAround& around, const HeatSteps& steps) {
+                  const DayAround& around, const HeatSteps& steps, const SurfaceDay* like) {
   const Site site = {.normal = exposure.normal, .sky_view = exposure.sky_view, .sunlit = exposure.sunlit};
   if (const auto* ground = std::get_if<GroundHeat>(&heat))
-    return day_of_ground(at_moisture(ground->states, exposure.moisture), site, around, steps);
+    return day_of_ground(at_moisture(ground->states, exposure.moisture), site, around, steps, like);
   if (const auto* slab = std::get_if<SlabHeat>(&heat))
     return day_of_slab(slab->is_body ? slab->properties : at_depth(slab->properties, exposure.depth_m), site,
-                       around, steps);
+                       around, steps, like);
   const auto& leaves = std::get<LeavesHeat>(heat);
   const CanopyProperties canopy = at_moisture(leaves.states, exposure.moisture);
   CanopyDay day = day_of_canopy(canopy, at_moisture(soil.states, exposure.moisture), site, around, steps,
-                                leaves.is_cover ? Stand::cover : Stand::alone);
+                                leaves.is_cover ? Stand::cover : Stand::alone, like);
   if (!leaves.is_cover) return std::move(day.leaves);
   for (std::size_t i = 0; i < day.leaves.surface_k.size(); ++i) {
     double& seen_k = day.leaves.surface_k[i];
@@ -199,37 +199,45 @@ HeatOfDay::HeatOfDay(const DayWeather& weather, std::map<std::string, MaterialHe
 }
 
 void HeatOfDay::compute(const std::set<std::string>& materials) const {
-  struct Column {
-    const MaterialHeat* heat;
-    const GroundHeat* soil;
-    SurfaceExposure exposure;
-    SurfaceDay* day;
+  struct Series {
+    const std::string* material;
+    Columns* columns;
+    std::size_t moisture;
   };
-  std::vector<Column> all;
+  std::vector<Series> all;
   for (const std::string& name : materials) {
     const auto found = materials_.find(name);
     if (found == materials_.end() || columns_.contains(name)) continue;
     const MaterialHeat& heat = found->second;
-    const GroundHeat& below = ground_below(materials_, name);
     Columns& columns = columns_.emplace(name, Columns{nodes_of(heat), fit_of(heat), {}, {}}).first->second;
-    const HeatNodes& nodes = columns.nodes;
-    const auto add = [&](const SurfaceExposure& exposure, SurfaceDay& day) {
-      all.push_back({&heat, &below, exposure, &day});
-    };
-    columns.level.resize(nodes.count());
-    for (std::size_t i = 0; i < nodes.count(); ++i) add(level_exposure(nodes, i), columns.level[i]);
-    const std::size_t slopes = columns.fit.directions().size() - 1;
-    columns.slopes.resize(slopes * nodes.moisture.size());
-    for (std::size_t i = 0; i < columns.slopes.size(); ++i) {
-      add({.normal = columns.fit.directions()[1 + i % slopes], .moisture = nodes.moisture[i / slopes]},
-          columns.slopes[i]);
-    }
+    const std::size_t moistures = columns.nodes.moisture.size();
+    columns.level.resize(columns.nodes.count());
+    columns.slopes.resize((columns.fit.directions().size() - 1) * moistures);
+    for (std::size_t m = 0; m < moistures; ++m) all.push_back({&found->first, &columns, m});
   }
-  const DayAround around = {.forcing = forcing_, .ground_k = ground_.surface_k};
-  parallel_for(all.size(), 8, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      *all[i].day = day_of(*all[i].heat, *all[i].soil, all[i].exposure, around, steps_);
+  parallel_for(all.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) compute(*all[i].material, all[i].moisture, *all[i].columns);
   });
+}
+
+/// Each column starts as the one before it ended.
+void HeatOfDay::compute(const std::string& material, std::size_t moisture, Columns& columns) const {
+  const MaterialHeat& heat = materials_.at(material);
+  const GroundHeat& soil = ground_below(materials_, material);
+  const DayAround around = {.forcing = forcing_, .ground_k = ground_.surface_k};
+  const HeatNodes& nodes = columns.nodes;
+  const SurfaceDay* before = nullptr;
+  const auto fill = [&](const SurfaceExposure& exposure, SurfaceDay& day) {
+    day = day_of(heat, soil, exposure, around, steps_, before);
+    before = &day;
+  };
+  for (std::size_t i = moisture; i < columns.level.size(); i += nodes.moisture.size())
+    fill(level_exposure(nodes, i), columns.level[i]);
+  const std::size_t slopes = columns.fit.directions().size() - 1;
+  for (std::size_t i = 0; i < slopes; ++i) {
+    fill({.normal = columns.fit.directions()[1 + i], .moisture = nodes.moisture[moisture]},
+         columns.slopes[moisture * slopes + i]);
+  }
 }
 
 MaterialMoment HeatOfDay::moment_of(const Columns& columns, double solar_h, const EastNorthUp& sun) {

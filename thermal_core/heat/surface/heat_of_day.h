@@ -70,8 +70,8 @@ struct HeatOfMoment {
   std::map<std::string, MaterialMoment> materials;
 };
 
-/// For tables, whose interpolation is a fifth of a kelvin off: half of the usual steps.
-inline constexpr HeatSteps kTableSteps = {.per_day = 144};
+/// For tables, whose interpolation is a fifth of a kelvin off: half of the usual steps, settled to a hundredth.
+inline constexpr HeatSteps kTableSteps = {.per_day = 144, .settled_k = 0.01};
 
 /// The temperatures of materials over a day that repeats itself. The columns of heat of a material are computed when it is
 /// first asked for, on all cores, and kept. Safe to use from several threads.
@@ -99,6 +99,8 @@ class HeatOfDay {
 
   /// Computes what is missing.
   void compute(const std::set<std::string>& materials) const;
+  /// The columns of a material at one of its nodes of moisture.
+  void compute(const std::string& material, std::size_t moisture, Columns& columns) const;
   [[nodiscard]] static MaterialMoment moment_of(const Columns& columns, double solar_h,
                                                 const EastNorthUp& sun);
 
@@ -111,9 +113,10 @@ class HeatOfDay {
   mutable std::map<std::string, Columns> columns_;
 };
 
-/// The day of one piece of a material. `soil` is the ground below leaves, `open_ground_k` what slopes face.
+/// The day of one piece of a material. `soil` is the ground below leaves, `open_ground_k` what slopes face. `like`: a day
+/// of a similar piece, from which it is found in fewer days; see day_of_ground().
 [[nodiscard]] SurfaceDay day_of(const MaterialHeat& heat, const GroundHeat& soil,
                                 const SurfaceExposure& exposure, const DayAround& around,
-                                const HeatSteps& steps);
+                                const HeatSteps& steps, const SurfaceDay* like = nullptr);
 
 }  // namespace thermal

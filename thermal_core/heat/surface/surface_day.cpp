@@ -21,12 +21,17 @@ double step_s(const DayAround& around) { return 86400.0 / static_cast<double>(ar
 /// Ground as it advances from step to step.
 class GroundBody {
  public:
-  GroundBody(const GroundProperties& properties, const Layers& layers, const DayAround& around)
+  /// `surface_k`: at the start. `like`: whose layers it starts with; null: all have that temperature.
+  GroundBody(const GroundProperties& properties, const Layers& layers, const DayAround& around,
+             double surface_k, const SurfaceDay* like)
       : balance_(properties.surface),
-        conduction_(properties, layers, step_s(around), mean_air_k(around)),
+        conduction_(properties, layers, step_s(around), surface_k),
         day_sum_k_(conduction_.layers_k().size()),
-        surface_k_(mean_air_k(around)),
-        before_k_(surface_k_) {}
+        surface_k_(surface_k),
+        before_k_(surface_k) {
+    if (like != nullptr && like->layers_k.size() == day_sum_k_.size())
+      conduction_.set_layers_k(like->layers_k);
+  }
 
   /// Also extrapolates the surface's temperature from the step before, as a first guess.
   void prepare() {
@@ -49,6 +54,7 @@ class GroundBody {
   }
 
   [[nodiscard]] double surface_k() const { return surface_k_; }
+  [[nodiscard]] const std::vector<double>& layers_k() const { return conduction_.layers_k(); }
 
   /// Moves each layer to the surface's daily mean, which all depths have on a day that repeats itself.
   void end_day(std::size_t steps, bool settle) {
@@ -76,8 +82,11 @@ constexpr double kLeastExchangeWM2K = 4;
 
 /// Computes days until one repeats the day before. `step(i, day)` advances a body and fills day.surface_k[i]; it
 /// returns the heat that went in. `end_day(settle)` may move the body nearer to its periodic state if `settle`.
+/// `warm`: the first day starts from that of a similar surface, not from an even temperature, whose means say little.
 template <typename Step, typename EndDay>
-void settle(const HeatSteps& steps, std::span<SurfaceDay*> days, const Step& step, const EndDay& end_day) {
+void settle(const HeatSteps& steps, std::span<SurfaceDay*> days, bool warm, const Step& step,
+            const EndDay& end_day) {
+  const int least = warm ? 2 : 3;
   const auto count = days.front()->surface_k.size();
   std::vector<std::vector<double>> before(days.size());
   for (int number = 1;; ++number) {
@@ -90,7 +99,7 @@ void settle(const HeatSteps& steps, std::span<SurfaceDay*> days, const Step& ste
         change_k = std::max(change_k, std::abs(days[k]->surface_k[i] - before[k][i]));
     }
     const double closure_w_m2 = heat_j_s / static_cast<double>(count);
-    const bool done = number > 2 && change_k <= steps.settled_k &&
+    const bool done = number >= least && change_k <= steps.settled_k &&
                       std::abs(closure_w_m2) <= kLeastExchangeWM2K * steps.settled_k;
     for (SurfaceDay* day : days) {
       day->days = number;
@@ -98,8 +107,7 @@ void settle(const HeatSteps& steps, std::span<SurfaceDay*> days, const Step& ste
       day->closure_w_m2 = closure_w_m2;
     }
     if (done || number >= steps.most_days) return;
-    // The first day starts from an even temperature, so its means say little.
-    end_day(number >= 2);
+    end_day(number >= least - 1);
   }
 }
 
@@ -135,8 +143,9 @@ std::vector<Forcing> forcing_at_height(const DayAround& around, double height_m)
   return raised;
 }
 
-SurfaceDay empty_day(const DayAround& around) {
-  return {.surface_k = std::vector<double>(around.forcing.size(), mean_air_k(around))};
+SurfaceDay first_day(const DayAround& around, const SurfaceDay* like) {
+  if (like != nullptr) return {.surface_k = like->surface_k, .layers_k = {}};
+  return {.surface_k = std::vector<double>(around.forcing.size(), mean_air_k(around)), .layers_k = {}};
 }
 
 }  // namespace
@@ -150,12 +159,12 @@ double SurfaceDay::at_k(double solar_h) const noexcept {
 }
 
 SurfaceDay day_of_ground(const GroundProperties& properties, const Site& site, const DayAround& around,
-                         const HeatSteps& steps) {
-  GroundBody body(properties, steps.layers, around);
-  SurfaceDay day = empty_day(around);
+                         const HeatSteps& steps, const SurfaceDay* like) {
+  SurfaceDay day = first_day(around, like);
+  GroundBody body(properties, steps.layers, around, day.surface_k.back(), like);
   SurfaceDay* days[] = {&day};
   settle(
-      steps, days,
+      steps, days, like != nullptr,
       [&](std::size_t i) {
         const Forcing& forcing = around.forcing[i];
         body.prepare();
@@ -163,20 +172,21 @@ SurfaceDay day_of_ground(const GroundProperties& properties, const Site& site, c
         return body.finish();
       },
       [&](bool recentre) { body.end_day(around.forcing.size(), recentre); });
+  day.layers_k = body.layers_k();
   return day;
 }
 
 SurfaceDay day_of_slab(const SlabProperties& properties, const Site& site, const DayAround& around,
-                       const HeatSteps& steps) {
-  SurfaceDay day = empty_day(around);
+                       const HeatSteps& steps, const SurfaceDay* like) {
+  SurfaceDay day = first_day(around, like);
   SurfaceDay* days[] = {&day};
   const double stored = properties.heat_capacity_j_m2_k / step_s(around);
   const double behind = properties.behind_w_m2_k;
   const SurfaceBalance balance(properties.surface);
-  double slab_k = mean_air_k(around);
+  double slab_k = day.surface_k.back();
   FixedPoint morning(slab_k);
   settle(
-      steps, days,
+      steps, days, like != nullptr,
       [&](std::size_t i) {
         const Forcing& forcing = around.forcing[i];
         const Incoming incoming = incoming_at(forcing, site, around.ground_at_k(i));
@@ -192,16 +202,17 @@ SurfaceDay day_of_slab(const SlabProperties& properties, const Site& site, const
 }
 
 CanopyDay day_of_canopy(const CanopyProperties& canopy, const GroundProperties& ground, const Site& site,
-                        const DayAround& around, const HeatSteps& steps, Stand stand) {
-  GroundBody body(ground, steps.layers, around);
-  CanopyDay day = {.leaves = empty_day(around), .ground = empty_day(around)};
+                        const DayAround& around, const HeatSteps& steps, Stand stand,
+                        const SurfaceDay* like) {
+  CanopyDay day = {.leaves = first_day(around, like), .ground = first_day(around, like)};
+  double leaves_k = day.leaves.surface_k.back();
+  GroundBody body(ground, steps.layers, around, leaves_k, like);
   SurfaceDay* days[] = {&day.leaves, &day.ground};
   const double stored = canopy.heat_capacity_j_m2_k * canopy.leaf_area_index / step_s(around);
   const LeafLayer layer(canopy, stand);
   const std::vector<Forcing> at_height = forcing_at_height(around, canopy.height_m);
-  double leaves_k = mean_air_k(around);
   settle(
-      steps, days,
+      steps, days, like != nullptr,
       [&](std::size_t i) {
         const Forcing& forcing = around.forcing[i];
         const Incoming above = incoming_at(at_height[i], site, around.ground_at_k(i));
@@ -221,6 +232,7 @@ CanopyDay day_of_canopy(const CanopyProperties& canopy, const GroundProperties& 
         return body.finish() + stored * (leaves_k - old_k);
       },
       [&](bool recentre) { body.end_day(around.forcing.size(), recentre); });
+  day.leaves.layers_k = day.ground.layers_k = body.layers_k();
   return day;
 }
 

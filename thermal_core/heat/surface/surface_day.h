@@ -25,9 +25,10 @@ struct HeatSteps {
 /// Temperatures of a surface over a day that repeats itself.
 struct SurfaceDay {
   std::vector<double> surface_k;  ///< at the end of each step from 0:00 on
-  double closure_w_m2 = 0;        ///< mean heat that went into the body over the day; 0 if it repeats itself
-  double unsettled_k = 0;         ///< largest difference from the day before
-  int days = 0;                   ///< computed until it settled
+  std::vector<double> layers_k;  ///< of the ground, or of that below leaves, at the day's end; see Conduction
+  double closure_w_m2 = 0;       ///< mean heat that went into the body over the day; 0 if it repeats itself
+  double unsettled_k = 0;        ///< largest difference from the day before
+  int days = 0;                  ///< computed until it settled
 
   /// At a local solar time, by straight lines between the steps; any finite number of hours.
   [[nodiscard]] double at_k(double solar_h) const noexcept;
@@ -44,23 +45,26 @@ struct DayAround {
   }
 };
 
-/// Ground, rock, a trunk.
+/// Ground, rock, a trunk. The first day starts as `like` ended, a day of a similar surface in the same weather, or from
+/// the mean of the air; starting from a similar surface needs fewer days, and the result differs by HeatSteps::settled_k.
 [[nodiscard]] SurfaceDay day_of_ground(const GroundProperties& properties, const Site& site,
-                                       const DayAround& around, const HeatSteps& steps);
+                                       const DayAround& around, const HeatSteps& steps,
+                                       const SurfaceDay* like = nullptr);
 
 /// Water, a sheet of metal.
 [[nodiscard]] SurfaceDay day_of_slab(const SlabProperties& properties, const Site& site,
-                                     const DayAround& around, const HeatSteps& steps);
+                                     const DayAround& around, const HeatSteps& steps,
+                                     const SurfaceDay* like = nullptr);
 
 /// A layer of leaves and the ground below it. Leaves above 2 m are in the air of their height: see StableAir.
 struct CanopyDay {
   SurfaceDay leaves;
   SurfaceDay ground;
 };
-/// The settled day of leaves and of the ground below them.
+/// The settled day of leaves and of the ground below them. `like`: leaves of a similar canopy.
 [[nodiscard]] CanopyDay day_of_canopy(const CanopyProperties& canopy, const GroundProperties& ground,
                                       const Site& site, const DayAround& around, const HeatSteps& steps,
-                                      Stand stand = Stand::cover);
+                                      Stand stand = Stand::cover, const SurfaceDay* like = nullptr);
 
 /// What a thermal camera sees of leaves and the ground between them from straight above, as one blackbody [K].
 [[nodiscard]] double seen_from_above_k(const CanopyProperties& canopy, double leaves_k,
