@@ -27,7 +27,7 @@ from .plants.halos import with_halos
 from .plants.placement import Corridor, Planting, Site, place_plants, with_more
 from .plants.plant_shapes import slots_of
 from .sites.crossings import plan_crossings
-from .sites.grounds import plan_grounds
+from .sites.grounds import plan_furrows, plan_grounds
 from .sites.layout import lay_out, plantings_of
 from .sites.settlement import plan_settlements
 from .workers import Cores
@@ -90,6 +90,7 @@ def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) 
     areas = plan_density(terrain, scene["terrain"], seed)
     burning = fires.plan_fires(scene.get("fires", []), terrain)
     treads = plan_treads(scene["groups"], loops, cast.actors)
+    treads = replace(treads, strands=[*treads.strands, *plan_furrows(settlements, terrain)])
     hearths = [fire.hearth for fire in burning]
     burnt = scene["terrain"]["burnt_fraction"]
     lay_fine = partial(lay_fine_covers, terrain, covers, treads, burnt, hearths, seed)

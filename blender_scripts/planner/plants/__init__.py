@@ -15,9 +15,14 @@ cover_m2      ground it hides from above, for the budget of physical terms
 model         a 3D model instead of `form`: see assets/README.md
 
 Instead of a `form`, it can have `shapes` and `materials` as a structure has. A structure is a file in
-`assets/structures`. The rules of a site place it, at its drawn size.
+`assets/structures`. The rules of a site place it.
 
-shapes        solids (`geometry/solids.py`) in m, x along its front, z up, the origin on the ground, each with a `part`
+shapes        solids (`geometry/solids.py`) in m, x along its front, z up, the origin on the ground, each with a `part`;
+              `share`: of the variants that have it, 1 by default; `ragged`: how uneven its outline is, seen from
+              above, as a share of its reach, 0 by default
+variants      number of forms, 1 by default
+proportions   largest relative change of a variant's length, width and height, 0 by default
+scale_range   sizes, relative to the drawn one, which all have by default
 materials     by part: a file in `assets/materials`, or `[material, part]` for a part of it; the first is what is seen
               from above
 foot_m        radius that nothing else of the site stands on, and no plant grows on

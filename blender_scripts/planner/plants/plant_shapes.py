@@ -22,6 +22,7 @@ FORMS = {
 }
 
 
+_WAVES = np.array([1, 2, 3, 5, 8, 13])  # around an uneven outline
 _WOODY = ("umbrella", "many_stemmed")  # forms with stems that have a slot of their own beside the leaves
 
 
@@ -38,11 +39,30 @@ def slots_of(data: dict) -> list[tuple[str, str]]:
 
 def build_variants(name: str, data: dict, seed: int) -> list[Mesh]:
     """Meshes of a plant's or structure's variants at its drawn size, standing at the origin, z up."""
+    streams = [stream(seed, f"plant/{name}", k) for k in range(data.get("variants", 1))]
     if "shapes" in data:
-        part = {name: slot for slot, name in enumerate(data["materials"])}
-        return [joined([solid_of(shape).with_slot(part[shape["part"]]) for shape in data["shapes"]])]
+        return [_built(data, k, rng) for k, rng in enumerate(streams)]
     form = FORMS[data["form"]]
-    return [_fitted(form(data, stream(seed, f"plant/{name}", k)), data) for k in range(data["variants"])]
+    return [_fitted(form(data, rng), data) for rng in streams]
+
+
+def _built(data: dict, k: int, rng: np.random.Generator) -> Mesh:
+    """Those of the listed solids that variant k has, with its proportions and uneven outlines."""
+    slot, count = {part: number for number, part in enumerate(data["materials"])}, data.get("variants", 1)
+    shapes = [s for j, s in enumerate(data["shapes"]) if (k + j) % count < s.get("share", 1.0) * count]
+    solids = [
+        _ragged(solid_of(shape), shape.get("ragged", 0.0), rng).with_slot(slot[shape["part"]])
+        for shape in shapes
+    ]
+    return joined(solids).scaled(1.0 + data.get("proportions", 0.0) * rng.uniform(-1.0, 1.0, 3))
+
+
+def _ragged(mesh: Mesh, by: float, rng: np.random.Generator) -> Mesh:
+    """The mesh with an outline, seen from above, that is uneven by about this share of its reach."""
+    angle = np.arctan2(mesh.points_m[:, 1], mesh.points_m[:, 0])[:, None]
+    phase_rad = rng.uniform(0.0, 2.0 * np.pi, len(_WAVES))
+    out = 1.0 + by * (np.cos(angle * _WAVES + phase_rad) / np.sqrt(_WAVES)).sum(axis=1) / np.sqrt(2.0)
+    return mesh.scaled(np.column_stack([out, out, np.ones(len(out))]))
 
 
 def _fitted(mesh: Mesh, data: dict) -> Mesh:

@@ -17,6 +17,9 @@ from .settlement import Settlement
 _TRIES = 60  # positions tried for each object
 _EVERYWHERE = (0.0, 1.0)
 _SHORE_M = 1.0
+_OFF_ROW = 0.03  # of the step: how far things stand off their row; estimates
+_OFF_GRID_RAD, _OFF_FENCE_RAD = 0.1, 0.06
+_LOBES, _UNEVEN = 0.12, 0.06  # of a fence's radius
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,15 +53,15 @@ class Layout:
 
     def is_open(self, thing: Standing) -> bool:
         """Whether the ground of an object is within the scene, dry, off the road and clear of walkers."""
-        data, at_m = assets.standing(thing.name), thing.point_m[None]
+        at_m, foot_m = thing.point_m[None], thing.foot_m
         x_m, y_m = at_m.T
-        if np.abs(at_m).max() > 0.5 * self.terrain.size_m - data["foot_m"]:
+        if np.abs(at_m).max() > 0.5 * self.terrain.size_m - foot_m:
             return False
-        if float(self.terrain.shore_m(x_m, y_m)[0]) < _SHORE_M + data["foot_m"]:
+        if float(self.terrain.shore_m(x_m, y_m)[0]) < _SHORE_M + foot_m:
             return False
-        if float(self.terrain.road_m(x_m, y_m)[0]) < data["foot_m"]:
+        if float(self.terrain.road_m(x_m, y_m)[0]) < foot_m:
             return False
-        clear_m = data["clearance_m"] + data["foot_m"]
+        clear_m = assets.standing(thing.name)["clearance_m"] + foot_m
         return all(corridor.is_clear(at_m, clear_m) for corridor in self.corridors)
 
     def add_first_free(self, tries: Iterator[Standing]) -> None:
@@ -78,7 +81,7 @@ def lay_out(site: Settlement, terrain: Terrain, corridors: Sequence[Corridor]) -
 
 
 def plantings_of(things: Sequence[Standing], terrain: Terrain, seed: int) -> dict[str, Planting]:
-    """The objects by name, as plantings; sizes and variants are drawn for each."""
+    """The objects by name, as plantings; variants are drawn for each."""
     return {
         name: _planting(name, [thing for thing in things if thing.name == name], terrain, seed)
         for name in sorted({thing.name for thing in things})
@@ -91,8 +94,7 @@ def _planting(name: str, things: Sequence[Standing], terrain: Terrain, seed: int
     return Planting(
         points_m=np.column_stack([points_m, terrain.height_m(*points_m.T)]),
         yaw_rad=np.array([thing.yaw_rad for thing in things]),
-        scale=rng.uniform(*data.get("scale_range", (1.0, 1.0)), len(things))
-        * [thing.scale for thing in things],
+        scale=np.array([thing.scale for thing in things]),
         variant=rng.integers(0, data.get("variants", 1), len(things)),
     )
 
@@ -118,9 +120,9 @@ def _beside(layout: Layout, rule: dict, number: int) -> None:
         if rng.uniform() >= rule.get("share", 1.0):
             continue
         name = _pick(rng, rule["object"])
-        foot_m = assets.standing(name)["foot_m"]
+        most_foot_m = assets.standing(name)["foot_m"] * _scale_range(name)[1]
 
-        def near(rng=rng, host=host, name=name, foot_m=foot_m) -> Standing:
+        def near(rng=rng, host=host, name=name, foot_m=most_foot_m) -> Standing:
             away_m = host.foot_m + foot_m + rng.uniform(least_m, most_m)
             return _facing(layout.site, rng, rule, name, host.point_m + away_m * any_heading(rng))
 
@@ -137,12 +139,9 @@ def _row(layout: Layout, rule: dict, number: int) -> None:
         yaw_rad = _grid_yaw(site, rng)
         along = heading_of(yaw_rad)
         turned_rad = yaw_rad + np.radians(rule["row"].get("turn_deg", 0.0))
-        line = [
-            Standing(
-                _pick(rng, rule["object"]), middle_m + (k - 0.5 * (count - 1)) * step_m * along, turned_rad
-            )
-            for k in range(count)
-        ]
+        off_m = _OFF_ROW * step_m * rng.uniform(-1.0, 1.0, (count, 2))
+        points_m = middle_m + (np.arange(count) - 0.5 * (count - 1))[:, None] * step_m * along + off_m
+        line = [_standing(rng, _pick(rng, rule["object"]), point_m, turned_rad) for point_m in points_m]
         free = [thing for thing in line if layout.is_free(thing)]
         best = max(best, free, key=len)
         if len(best) == count:
@@ -151,7 +150,7 @@ def _row(layout: Layout, rule: dict, number: int) -> None:
 
 
 def _loop(layout: Layout, rule: dict, number: int) -> None:
-    """Segments of a fence around round or rectangular grounds, with a gate; those in walkers' way are left out."""
+    """Segments of a fence around round or rectangular grounds, with a gate and gaps; none in walkers' way."""
     site, loop = layout.site, rule["loop"]
     for k in range(site.count(site.stream("count", number), rule)):
         rng = site.stream("thing", number, k)
@@ -164,32 +163,47 @@ def _loop(layout: Layout, rule: dict, number: int) -> None:
         else:
             continue
         corners_m = middle_m + radius_m * _outline(site, rng, loop)
-        segments = list(_segments(corners_m, _pick(rng, rule["object"]), loop["step_m"]))
+        segments = list(_segments(rng, corners_m, _pick(rng, rule["object"]), loop["step_m"]))
         gate = int(rng.integers(len(segments)))
         open_count = round(loop.get("gate_m", 0.0) / loop["step_m"])
-        kept = [s for j, s in enumerate(segments) if (j - gate) % len(segments) >= open_count]
-        layout.things += [s for s in kept if layout.is_open(s)]
+        broken = rng.uniform(size=len(segments)) < 0.5 * loop.get("gaps", 0.0)
+        broken |= np.roll(broken, 1)  # gaps are two segments wide or more
+        closed = (np.arange(len(segments)) - gate) % len(segments) >= open_count
+        layout.things += [s for s, keep in zip(segments, closed & ~broken) if keep and layout.is_open(s)]
 
 
 def _outline(site: Settlement, rng: np.random.Generator, loop: dict) -> np.ndarray:
-    """Corners (n, 2) of a loop of radius 1: an uneven ring, or a rectangle along the site's heading."""
+    """Corners (n, 2) of a loop of radius about 1: an uneven ring, or nearly a rectangle along the site's heading."""
     if loop.get("is_rectangle", False):
         high = rng.uniform(0.6, 1.0)
         corners = np.array([[-1.0, -high], [1.0, -high], [1.0, high], [-1.0, high]])
-        return corners @ _turn(site.heading_rad).T
-    angle = 2.0 * np.pi * np.arange(14) / 14
-    reach = 1.0 + 0.08 * rng.uniform(-1.0, 1.0, len(angle))
-    return reach[:, None] * heading_of(angle)
+        return (corners + _UNEVEN * rng.uniform(-1.0, 1.0, (4, 2))) @ _turn(site.heading_rad).T
+    angle = 2.0 * np.pi * np.arange(18) / 18
+    phase_rad = rng.uniform(0.0, 2.0 * np.pi, 2)
+    lobes = _LOBES * (np.cos(2 * angle + phase_rad[0]) + np.cos(3 * angle + phase_rad[1]))
+    return (1.0 + lobes + _UNEVEN * rng.uniform(-1.0, 1.0, len(angle)))[:, None] * heading_of(angle)
 
 
-def _segments(corners_m: np.ndarray, name: str, step_m: float) -> Iterator[Standing]:
-    """Segments of length step_m one after the other along a closed line."""
+def _segments(
+    rng: np.random.Generator, corners_m: np.ndarray, name: str, step_m: float
+) -> Iterator[Standing]:
+    """Segments of length step_m one after the other, nearly along a closed line."""
     ends_m = np.roll(corners_m, -1, axis=0)
     for start_m, end_m in zip(corners_m, ends_m):
         way_m = end_m - start_m
         count = max(1, round(float(np.linalg.norm(way_m)) / step_m))
-        yaw_rad = float(np.arctan2(way_m[1], way_m[0]))
-        yield from (Standing(name, start_m + (k + 0.5) / count * way_m, yaw_rad) for k in range(count))
+        yaws_rad = np.arctan2(way_m[1], way_m[0]) + _OFF_FENCE_RAD * rng.uniform(-1.0, 1.0, count)
+        for k, yaw_rad in enumerate(yaws_rad):
+            yield _standing(rng, name, start_m + (k + 0.5) / count * way_m, yaw_rad)
+
+
+def _standing(rng: np.random.Generator, name: str, point_m: np.ndarray, yaw_rad: float) -> Standing:
+    """An object with a size drawn from those of its file."""
+    return Standing(name, point_m, float(yaw_rad), float(rng.uniform(*_scale_range(name))))
+
+
+def _scale_range(name: str) -> Sequence[float]:
+    return assets.standing(name).get("scale_range", (1.0, 1.0))
 
 
 def _facing(
@@ -199,10 +213,10 @@ def _facing(
     faces = rule.get("faces", "any")
     if faces == "middle":
         inward = site.middle_m - point_m
-        return Standing(name, point_m, float(np.arctan2(inward[1], inward[0])) + rng.uniform(-0.3, 0.3))
+        return _standing(rng, name, point_m, np.arctan2(inward[1], inward[0]) + rng.uniform(-0.3, 0.3))
     if faces == "grid":
-        return Standing(name, point_m, _grid_yaw(site, rng) + rng.uniform(-0.03, 0.03))
-    return Standing(name, point_m, 2.0 * np.pi * rng.uniform())
+        return _standing(rng, name, point_m, _grid_yaw(site, rng) + _OFF_GRID_RAD * rng.uniform(-1.0, 1.0))
+    return _standing(rng, name, point_m, 2.0 * np.pi * rng.uniform())
 
 
 def _grid_yaw(site: Settlement, rng: np.random.Generator) -> float:
