@@ -7,7 +7,9 @@ from scenes import tiny
 from planner.land.covers import SOIL, plan_covers
 from planner.land.ground import build_ground
 from planner.land.road_plan import plan_road
+from planner.land.roads import TRACK_M
 from planner.land.terrain import build_terrain
+from planner.geometry.rotations import left_of
 from planner.geometry.triangles import split_edges
 
 SETTINGS = tiny()["scene"]["terrain"] | {"size_m": 240}
@@ -61,11 +63,11 @@ def test_neighbours_share_whole_edges(built):
 def test_the_mesh_is_the_heightfield(built):
     terrain, _, ground = built
     heights = terrain.height_m(ground.points_m[:, 0], ground.points_m[:, 1])
-    # Points on shared edges round by some eps of 120 m. Border points that cut edges on the road lie on the edge: 2 cm.
+    # Points on shared edges round by some eps of 120 m. Border points that cut edges on the road lie on the edge: 3 cm.
     off_m = np.abs(heights - ground.points_m[:, 2])
     on_road = np.isfinite(terrain.road_m(ground.points_m[:, 0], ground.points_m[:, 1]))
     assert off_m[~on_road].max() < 1e-11
-    assert off_m.max() < 0.02
+    assert off_m.max() < 0.03
 
 
 def test_the_road_is_in_the_mesh():
@@ -74,8 +76,27 @@ def test_the_road_is_in_the_mesh():
     about = np.isfinite(terrain.road_m(middle[:, 0], middle[:, 1]))
     off_m = np.abs(terrain.height_m(middle[:, 0], middle[:, 1]) - middle[:, 2])
     assert off_m[about].max() < 0.03
-    on_road = terrain.road_m(middle[:, 0], middle[:, 1]) < -0.1
-    assert (ground.cover[on_road] == ground.materials.index("road")).all()
+    off_road_m = terrain.road_m(middle[:, 0], middle[:, 1])
+    is_road = ground.cover == ground.materials.index("road")
+    assert is_road[np.abs(off_road_m + 1.9 - TRACK_M) < 0.1].mean() > 0.85
+    assert not is_road[off_road_m > 1.9].any()
+
+
+def test_the_road_wanders_and_grows_over_and_its_end_narrows():
+    terrain, layers, _ = _build(**WILD)
+    road, across_m = terrain.road, np.arange(-4.0, 4.01, 0.05)
+
+    def bare(line, at_m):
+        points_m, heading = line.at(at_m)
+        places_m = points_m[:, None] + across_m[:, None] * left_of(heading)[:, None]
+        return layers[0].value(*np.moveaxis(places_m, -1, 0)) > 0
+
+    loop = bare(road.loop, np.arange(0.0, road.loop.length_m, 3.0))
+    right_m, left_m = (np.abs(across_m[each.argmax(axis=1)]) for each in (loop, loop[:, ::-1]))
+    assert 0.15 < (right_m + left_m).std() < 1.0 and (right_m + left_m).mean() == pytest.approx(3.8, abs=0.3)
+    assert 0.2 < 1.0 - loop[:, 80].mean() < 0.98  # grown over between the wheels
+    spur = bare(road.spur, road.spur.length_m - np.array([26.0, 15.0, 1.0])).sum(axis=1)
+    assert spur[0] > spur[1] > spur[2] == 0
 
 
 def test_covers_lie_where_their_values_say(built):
@@ -116,8 +137,8 @@ def test_a_wild_place_has_all_covers():
     assert ground.materials == ("soil", "road", "wet_soil", "rock", "grass")
     assert min(_share(ground, areas, material) for material in ground.materials) > 0
     length_m = sum(line.length_m for line in terrain.road.lines)
-    # Where the spur leaves the loop both are one.
-    assert _share(ground, areas, "road") * 240**2 == pytest.approx(3.8 * length_m, rel=0.05)
+    # Where the spur leaves the loop both are one; up to a third of the width has grown over.
+    assert 0.7 < _share(ground, areas, "road") * 240**2 / (3.8 * length_m) < 1.0
     middle = ground.points_m[ground.triangles].mean(axis=1)
     near = np.abs(terrain.shore_m(middle[:, 0], middle[:, 1])) < 0.5
     assert _share(ground, areas, "wet_soil", near) > 0.95

@@ -8,11 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..noise import fractal_noise
+from .roads import TRACK_M
 from .terrain import Terrain
 
 SOIL, GRASS = "soil", "grass"
 
 _GRASS_OCTAVES = 5
+_WORN_M, _WORN_ALONG_M = 1.0, 40.0  # how far, and over what length, a road's borders wander; estimates
+_STRIP_M, _STRIP_MORE_M, _STRIP_ALONG_M = 0.2, 0.8, 60.0  # half of what grows between the wheels; estimates
+_BETWEEN_M = TRACK_M - 0.25  # beside it, the wheels keep the ground bare
+_END_M = 30.0  # over which a road that ends narrows; estimate
 _BARE_MARGIN_M = 5.0  # bare margin around the water
 _WET_MARGIN_M = 2.5  # wet part of it; both are estimates
 _WET_RAGGED_M = 1.5
@@ -37,7 +42,7 @@ def plan_covers(terrain: Terrain, settings: dict, seed: int, grounds: Sequence[L
     """The layers on the dry soil of a terrain; where they overlap, the first one wins. No grass grows on `grounds`."""
     layers = []
     if terrain.road is not None:
-        layers.append(Layer("road", lambda x_m, y_m: np.maximum(-terrain.road_m(x_m, y_m), FAR_M)))
+        layers.append(Layer("road", lambda x_m, y_m: _worn_road(terrain, seed, x_m, y_m)))
     if terrain.waters:
         layers.append(Layer("wet_soil", lambda x_m, y_m: _wetness(terrain, seed, x_m, y_m)))
     if terrain.crag is not None:
@@ -45,6 +50,24 @@ def plan_covers(terrain: Terrain, settings: dict, seed: int, grounds: Sequence[L
     layers += grounds
     grass = _plan_grass(terrain, settings, seed)
     return layers if grass is None else [*layers, Layer(GRASS, grass)]
+
+
+def _worn_road(terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray:
+    """The bare ground of a road: without ragged verges, and without what grows between the wheels in places."""
+    road, value = terrain.road, np.full(np.shape(x_m), FAR_M)
+    off_m = terrain.road_m(x_m, y_m)
+    near = np.isfinite(off_m)
+    x_m, y_m, off_m = x_m[near], y_m[near], off_m[near]
+    worn_m = _WORN_M * fractal_noise(seed, "road/worn", x_m, y_m, _WORN_ALONG_M, octaves=6, gain=0.6)
+    if road.spur is not None:
+        end_x_m, end_y_m = road.points_m[-1][-1]
+        before_m = np.sqrt((x_m - end_x_m) ** 2 + (y_m - end_y_m) ** 2)
+        worn_m -= (0.5 * road.width_m + _WORN_M) * np.clip(1.0 - before_m / _END_M, 0.0, 1.0)
+    strip_m = _STRIP_M + _STRIP_MORE_M * fractal_noise(
+        seed, "road/strip", x_m, y_m, _STRIP_ALONG_M, octaves=5
+    )
+    value[near] = np.minimum(worn_m - off_m, off_m + 0.5 * road.width_m - np.minimum(strip_m, _BETWEEN_M))
+    return value
 
 
 def _wetness(terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray:

@@ -19,6 +19,7 @@ from .trails import plan_trails
 _HARD = ("rock", "concrete")  # no traces of feet
 _WHEEL_M = 0.2  # half of a wheel track's width; estimate
 _SHORE_SHARE, _SHORE_RAGGED = 0.85, 0.5
+_WHEEL_SHARES = [0.95] * 2, [0.95] * 9 + [0.0]  # on the loop; on the spur, whose end fades
 _SHORE_REACH = 1.3  # of the water's radius: reach of its halo, at least _SHORE_LEAST_M; estimates
 _SHORE_LEAST_M = 12.0
 
@@ -66,8 +67,8 @@ def lay_trodden(grid: FineGrid, terrain: Terrain, treads: Treads, seed: int) -> 
 def wheel_tracks(road: Road) -> list[Strand]:
     """Both tracks of each line of a road, where they are deepest."""
     return [
-        Strand(line, f"wheels/{k}", [_WHEEL_M] * 2, [0.95] * 2, 0.08, 60.0, side * TRACK_M, frays=0.25)
-        for k, line in enumerate(road.lines)
+        Strand(line, f"wheels/{k}", [_WHEEL_M] * len(shares), shares, 0.08, 60.0, side * TRACK_M, frays=0.25)
+        for k, (line, shares) in enumerate(zip(road.lines, _WHEEL_SHARES))
         for side in (-1.0, 1.0)
     ]
 
