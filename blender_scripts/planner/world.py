@@ -21,6 +21,7 @@ from .land.covers import SOIL, Layer, plan_covers
 from .land.ground_maps import Ground, lay_ground
 from .land.road_plan import plan_road
 from .land.terrain import Terrain, build_terrain
+from .land.trails import Place
 from .land.trodden import lay_fine_covers
 from .plants.density import plan_density
 from .plants.halos import with_halos
@@ -90,7 +91,8 @@ def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) 
     areas = plan_density(terrain, scene["terrain"], seed)
     burning = fires.plan_fires(scene.get("fires", []), terrain)
     treads = plan_treads(scene["groups"], loops, cast.actors)
-    treads = replace(treads, strands=[*treads.strands, *plan_furrows(settlements, terrain)])
+    places = [Place(site.name, site.middle_m, site.radius_m) for site in settlements]
+    treads = replace(treads, strands=[*treads.strands, *plan_furrows(settlements, terrain)], places=places)
     hearths = [fire.hearth for fire in burning]
     burnt = scene["terrain"]["burnt_fraction"]
     lay_fine = partial(lay_fine_covers, terrain, covers, treads, burnt, hearths, seed)

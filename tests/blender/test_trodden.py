@@ -7,6 +7,7 @@ from lands import SEED, SIZE_M, WILD, small_land
 from planner.geometry.splines import Line
 from planner.land.fine_grid import FineGrid
 from planner.land.strands import Halo, Strand, lay_strands
+from planner.land.trails import Place
 from planner.land.trodden import Treads, lay_fine_covers, lay_trodden, wheel_tracks
 
 NO_TREADS = Treads([], [], [])
@@ -62,6 +63,19 @@ def test_trampled_ground_surrounds_the_water_and_trails_lead_there():
 def test_nothing_leads_to_water_that_is_not_there():
     terrain, _, grid = small_land(water_radius_m=0)
     assert not lay_trodden(grid, terrain, Treads([], [], [np.array([50.0, 40.0])]), SEED).any()
+def test_foot_paths_lead_to_places_from_each_other_and_out_into_the_land():
+    terrain, _, grid = small_land(water_radius_m=0)
+    places = [Place("a", np.array([-70.0, -60.0]), 10.0), Place("b", np.array([70.0, 50.0]), 10.0)]
+    trodden = lay_trodden(grid, terrain, Treads([], [], [], places), SEED) / 255
+    x_m, y_m = np.meshgrid(grid.middles_m, grid.middles_m)
+    for place in places:
+        off_m = np.hypot(x_m - place.middle_m[0], y_m - place.middle_m[1])
+        assert all(trodden[np.abs(off_m - r) < 1].max() > 0.15 for r in range(4, 160, 4))
+    assert trodden[np.hypot(x_m + 70, y_m + 60) < 40].mean() < 0.06  # narrow
+    again = lay_trodden(grid, terrain, Treads([], [], [], places[:1]), SEED) / 255
+    assert 0 < np.count_nonzero(again) < np.count_nonzero(trodden)
+
+
 
 
 def test_places_of_groups_are_trampled_unevenly():

@@ -1,15 +1,16 @@
-"""Game trails that lead to water over gentle ground, and join on their way. Lengths in m."""
+"""Game trails to water and foot paths to where people live, over gentle ground; they join. Lengths in m."""
 
 from __future__ import annotations
 
 import heapq
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.rotations import any_heading
 from ..geometry.splines import Line
-from ..noise import fractal_noise, lattice_uniform
+from ..noise import fractal_noise, lattice_uniform, stream
 from .strands import Strand
 from .terrain import Terrain
 
@@ -26,45 +27,86 @@ _BORDER_M = 8.0
 _NEIGHBOURS = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
 # By strand: least traffic for it, and how far it strays; trails of many animals are braided.
 _BRAIDS = ((1.0, 2.2), (3.0, 3.6), (7.0, 5.0))
+_ON_FOOT = ((1.0, 0.7),)
+_NEIGHBOURS_M = 600.0  # how far foot paths lead; this and the next two are estimates
+_ERRANDS, _ERRANDS_M = 5, (1.2, 4.0)  # ways out into the land, in radii of a place
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where people live: foot paths lead there."""
+
+    name: str
+    middle_m: np.ndarray
+    radius_m: float
 
 
 @dataclass(frozen=True)
 class _Ways:
-    """Ways to water from nodes (lines x lines): positions (n, 2), and the next node on the way, or the node itself."""
+    """Steps between nodes (lines x lines) at positions (n, 2): their costs by neighbour, (n,) each."""
 
     lines: int
     points_m: np.ndarray
-    following: np.ndarray
+    costs: list[list[float]]
 
 
-def plan_trails(terrain: Terrain, sources_m: Sequence[np.ndarray], seed: int) -> list[Strand]:
-    """Trails from points (n, 2), and from random ones, to the nearest water by easy ways; none without water."""
-    if not terrain.waters:
+def plan_trails(
+    terrain: Terrain, sources_m: Sequence[np.ndarray], places: Sequence[Place], seed: int
+) -> list[Strand]:
+    """Trails from points (n, 2), and from random ones, to the nearest water by easy ways, and foot paths to places from
+    those after them, the road, the water, and random points nearby.
+    """
+    if not terrain.waters and not places:
         return []
-    ways = _plan_ways(terrain, seed)
-    begins = _nodes_at(ways, terrain.size_m, [*sources_m, *_random_places(terrain, seed)])
-    traffic = _traffic(ways.following, begins)
-    points_m = _smoothed(ways, traffic)
+    ways, strands = _plan_ways(terrain, seed), []
+    if terrain.waters:
+        shore_m = terrain.shore_m(*ways.points_m.T)
+        wet = np.flatnonzero(shore_m <= max(shore_m.min(), 0.0))  # the pan may lie between nodes
+        begins_m = [*sources_m, *_random_places(terrain, seed)]
+        strands += _joined(ways, terrain.size_m, wet, begins_m, "trails", _BRAIDS)
+    for k, place in enumerate(places):
+        near_m = list(_near(terrain, place, places[k + 1 :], seed))
+        sink = _nodes_at(ways, terrain.size_m, [place.middle_m])
+        strands += _joined(ways, terrain.size_m, sink, near_m, f"paths/{place.name}", _ON_FOOT)
+    return strands
+
+
+def _near(terrain: Terrain, place: Place, others: Sequence[Place], seed: int) -> Iterator[np.ndarray]:
+    """Points (2,) from which paths lead to a place."""
+    found = [other.middle_m for other in others]
+    found += [np.array(water.basin.centre_m) for water in terrain.waters]
+    for points_m in () if terrain.road is None else terrain.road.points_m:
+        found.append(points_m[((points_m - place.middle_m) ** 2).sum(axis=1).argmin()])
+    yield from (at_m for at_m in found if ((at_m - place.middle_m) ** 2).sum() < _NEIGHBOURS_M**2)
+    rng = stream(seed, f"paths/{place.name}")
+    for _ in range(_ERRANDS):
+        yield place.middle_m + place.radius_m * rng.uniform(*_ERRANDS_M) * any_heading(rng)
+
+
+def _joined(
+    ways: _Ways, size_m: float, sinks: Sequence[int], begins_m: Sequence[np.ndarray], name: str, braids
+) -> list[Strand]:
+    """Strands from points (n, 2) to the nearest of some nodes."""
+    following, begins = _nearest_sinks(ways, list(sinks)), _nodes_at(ways, size_m, begins_m)
+    traffic = _traffic(following, begins)
+    points_m = _smoothed(ways.points_m, following, traffic)
     return [
         strand
-        for course in _courses(ways.following, begins)
+        for course in _courses(following, begins)
         if len(course) > 2
-        for strand in _strands(points_m[course], traffic[course])
+        for strand in _strands(points_m[course], traffic[course], name, braids)
     ]
 
 
 def _plan_ways(terrain: Terrain, seed: int) -> _Ways:
-    """The cheapest ways to the water's nodes (Dijkstra 1959)."""
+    """Steps over a jittered grid, dear on slopes and in thickets."""
     lines = min(_MOST_LINES, max(4, round((terrain.size_m - 2.0 * _BORDER_M) / _NODE_M)))
     points_m = _nodes_m(lines, terrain.size_m, seed)
     x_m, y_m = points_m.T
     height_m = terrain.height_m(x_m, y_m)
     dear = 1.0 + _THICK * np.clip(fractal_noise(seed, "trails/thick", x_m, y_m, _THICKET_M, 3), -1.0, 1.0)
     costs = [_step_costs(points_m, height_m, dear, lines, dx + dy * lines).tolist() for dx, dy in _NEIGHBOURS]
-    wet = np.flatnonzero(terrain.shore_m(x_m, y_m) < 0)
-    if len(wet) == 0:  # the pan lies between nodes
-        wet = np.array([terrain.shore_m(x_m, y_m).argmin()])
-    return _Ways(lines, points_m, _nearest_sinks(costs, wet.tolist(), lines))
+    return _Ways(lines, points_m, costs)
 
 
 def _nodes_m(lines: int, size_m: float, seed: int) -> np.ndarray:
@@ -83,8 +125,9 @@ def _step_costs(points_m: np.ndarray, height_m: np.ndarray, dear: np.ndarray, li
     return length_m * (dear + dear[other]) * (1.0 + _STEEP * grade * grade)
 
 
-def _nearest_sinks(costs: list[list[float]], sinks: list[int], lines: int) -> np.ndarray:
-    """The next node (n,) on the cheapest way from each node to a sink."""
+def _nearest_sinks(ways: _Ways, sinks: list[int]) -> np.ndarray:
+    """The next node (n,) on the cheapest way from each node to a sink, or the node itself (Dijkstra 1959)."""
+    lines = ways.lines
     total, following = [np.inf] * (lines * lines), list(range(lines * lines))
     for node in sinks:
         total[node] = 0.0
@@ -94,7 +137,7 @@ def _nearest_sinks(costs: list[list[float]], sinks: list[int], lines: int) -> np
         if cost > total[node]:
             continue
         y, x = divmod(node, lines)
-        for (dx, dy), step in zip(_NEIGHBOURS, costs):
+        for (dx, dy), step in zip(_NEIGHBOURS, ways.costs):
             if 0 <= x + dx < lines and 0 <= y + dy < lines:
                 other = node + dx + dy * lines
                 if cost + step[node] < total[other]:
@@ -131,21 +174,20 @@ def _traffic(following: np.ndarray, begins: Sequence[int]) -> np.ndarray:
     return traffic
 
 
-def _smoothed(ways: _Ways, traffic: np.ndarray) -> np.ndarray:
+def _smoothed(points_m: np.ndarray, following: np.ndarray, traffic: np.ndarray) -> np.ndarray:
     """Nodes moved towards the midpoint between the node before, by which most trails come, and the next."""
     nodes = np.flatnonzero(traffic > 0)
     before = np.arange(len(traffic))
     for node in nodes[np.argsort(traffic[nodes], kind="stable")]:
-        if ways.following[node] != node:
-            before[ways.following[node]] = node
-    points_m = ways.points_m
+        if following[node] != node:
+            before[following[node]] = node
     for _ in range(2):
-        points_m = 0.5 * points_m + 0.25 * (points_m[before] + points_m[ways.following])
+        points_m = 0.5 * points_m + 0.25 * (points_m[before] + points_m[following])
     return points_m
 
 
 def _courses(following: np.ndarray, begins: Sequence[int]) -> list[list[int]]:
-    """Nodes of each trail, to the water or to the second node of a trail that it joins."""
+    """Nodes of each trail, to its sink or to the second node of a trail that it joins."""
     done = np.zeros(len(following), bool)
     courses = []
     for node in begins:
@@ -160,7 +202,7 @@ def _courses(following: np.ndarray, begins: Sequence[int]) -> list[list[int]]:
     return courses
 
 
-def _strands(points_m: np.ndarray, traffic: np.ndarray) -> list[Strand]:
+def _strands(points_m: np.ndarray, traffic: np.ndarray, name: str, braids) -> list[Strand]:
     """One or more strands along a trail; bare and wide where many trails have joined."""
     curve = Line(points_m)
     worn = traffic / (traffic + 2.0)
@@ -168,12 +210,12 @@ def _strands(points_m: np.ndarray, traffic: np.ndarray) -> list[Strand]:
     return [
         Strand(
             curve,
-            f"trails/{k}",
+            f"{name}/{k}",
             half_width_m=0.15 + 0.15 * worn,
             share=(0.5 + 0.5 * worn) * (traffic >= least) * begins,
             wander_m=wander_m,
             wavelength_m=_WINDING_M,
         )
-        for k, (least, wander_m) in enumerate(_BRAIDS)
+        for k, (least, wander_m) in enumerate(braids)
         if traffic.max() >= least
     ]

@@ -14,23 +14,26 @@ from .fine_grid import FineGrid
 from .roads import TRACK_M, Road
 from .strands import Halo, Strand, lay_halos, lay_strands
 from .terrain import Terrain
-from .trails import plan_trails
+from .trails import Place, plan_trails
 
 _HARD = ("rock", "concrete")  # no traces of feet
 _WHEEL_M = 0.2  # half of a wheel track's width; estimate
-_SHORE_SHARE, _SHORE_RAGGED = 0.85, 0.5
 _WHEEL_SHARES = [0.95] * 2, [0.95] * 9 + [0.0]  # on the loop; on the spur, whose end fades
+_SHORE_SHARE, _SHORE_RAGGED = 0.85, 0.5
 _SHORE_REACH = 1.3  # of the water's radius: reach of its halo, at least _SHORE_LEAST_M; estimates
 _SHORE_LEAST_M = 12.0
 
 
 @dataclass(frozen=True)
 class Treads:
-    """Traces of groups on the ground: strands, halos, and points (2,) from which trails lead to the water."""
+    """Traces on the ground: strands, halos, points (2,) from which trails lead to the water, and places that foot paths
+    lead to.
+    """
 
     strands: list[Strand]
     halos: list[Halo]
     sources_m: list[np.ndarray]
+    places: Sequence[Place] = ()
 
 
 def lay_fine_covers(
@@ -58,7 +61,8 @@ def lay_trodden(grid: FineGrid, terrain: Terrain, treads: Treads, seed: int) -> 
     """Shares of bare, packed ground."""
     trodden = _about_water(grid, terrain, seed)
     lay_halos(trodden, grid, treads.halos, seed)
-    lay_strands(trodden, grid, [*treads.strands, *plan_trails(terrain, treads.sources_m, seed)], seed)
+    ways = plan_trails(terrain, treads.sources_m, treads.places, seed)
+    lay_strands(trodden, grid, [*treads.strands, *ways], seed)
     if terrain.road is not None:
         lay_strands(trodden, grid, wheel_tracks(terrain.road), seed)
     return trodden

@@ -15,5 +15,5 @@ no other key                                things anywhere in the `ring`
 made by people; where they overlap, the first one wins: a `disc` of so many radii, rectangles of `size_m`, or winding
 `tracks` from the middle, which end in a point; `ragged_m` is how uneven a border is. No grass grows there, except on
 the `fallow` share of rectangles, of which furrows, `furrow_m` apart, are left. Rectangles with furrows have four uneven
-sides.
+sides. Foot paths (`land/trails.py`) lead from a site to its neighbours, the road, the water and out into the land.
 """
