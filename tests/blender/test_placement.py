@@ -69,6 +69,17 @@ def test_each_species_is_as_dense_as_asked_for(savanna, name):
     assert (np.abs(_in_strips(savanna, [name]) - expected) < 0.1 * expected + 3.0 * np.sqrt(expected)).all()
 
 
+@pytest.mark.parametrize("name, least", [("acacia", 1.8), ("hookthorn", 1.8), ("shrub", 1.8)])
+def test_plants_with_clumps_have_more_neighbours(name, least):
+    """Than if they stood at random, where there is room; and species gather at the same places."""
+    mix = {other: {"per_ha": 8} for other in {name, "hookthorn"}}
+    plants = place_plants(mix, Site(LEVEL), SEED)
+    points_m, others_m = plants[name].points_m[:, :2], plants["hookthorn"].points_m[:, :2]
+    expected = len(points_m) * len(others_m) * np.pi * 10.0**2 / SIZE_M**2
+    found = len(pairs_within(points_m, others_m, 10.0)[0]) - (name == "hookthorn") * len(points_m)
+    assert found > least * expected
+
+
 def test_one_number_is_for_all_areas():
     even = place_plants(SHRUBS, Site(LEVEL, _strips), SEED)["shrub"]
     # 15 534 shrubs: stddev 0.8 %, and the lattice's 2 %.

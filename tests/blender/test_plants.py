@@ -83,6 +83,22 @@ def test_crowns_span_what_the_species_grows_to(name):
         assert across_m.min() > 0.85 * across_m.max()
 
 
+def _unevenness(triangles_m):
+    """Relative deviation of the reach of leaves, over twelve directions."""
+    middles_m = triangles_m.mean(axis=1)[:, :2]
+    sector = ((np.arctan2(*middles_m.T) / (2 * np.pi) + 0.5) * 12).astype(int) % 12
+    reach_m = [np.quantile(np.hypot(*middles_m[sector == k].T), 0.95) for k in range(12)]
+    return np.std(reach_m) / np.mean(reach_m)
+
+
+def test_crowns_have_lobes():
+    """Clumps alone make crowns uneven by 0.096."""
+    uneven = [
+        _unevenness(triangles_m) for name in ("acacia", "hookthorn") for _, triangles_m in _variants(name)
+    ]
+    assert 0.12 < np.mean(uneven) < 0.2 and max(uneven) < 0.25
+
+
 def test_an_umbrella_is_flat_and_stands_on_one_stem():
     for points_m, triangles_m in _variants("acacia"):
         top = points_m[:, 2].max()

@@ -30,7 +30,7 @@ def poisson_points(
     per_m2(x_m, y_m) is the wanted density, clipped to most_per_m2 > 0. Points are at least spacing_m apart, or less if
     most_per_m2 requires it.
     """
-    spacing_m = min(spacing_m, np.sqrt(_FULLEST / (np.pi * most_per_m2)))
+    spacing_m *= min(1.0, np.sqrt(fullest_per_m2(spacing_m) / most_per_m2))
     cells, points_m, mark = _candidates(seed, name, size_m, spacing_m, _chance(most_per_m2, spacing_m))
     alive = mark < _chance(per_m2(*points_m.T), spacing_m)
     cells, points_m = cells[alive], points_m[alive]
@@ -39,6 +39,11 @@ def poisson_points(
     stays = (np.abs(points_m) < 0.5 * size_m).all(axis=1)
     stays[one[rank[other] > rank[one]]] = False
     return cells[stays], points_m[stays]
+
+
+def fullest_per_m2(spacing_m: float) -> float:
+    """The largest density at which points can keep a distance."""
+    return _FULLEST / (np.pi * spacing_m**2)
 
 
 def _candidates(seed: int, name: str, size_m: float, cell_m: float, most: float):

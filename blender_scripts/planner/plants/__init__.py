@@ -10,6 +10,7 @@ foot_m        radius that no other plant stands on
 spacing_m     least distance to the next plant of its kind
 clearance_m   least distance to walking actors
 patch_m       size of rich and poor patches
+clump_m       radius of clumps, in which three quarters of the plants stand where there is room, 0 (none) by default
 slope_deg     two slopes: full density up to the first, none above the second
 cover_m2      ground it hides from above, for the budget of physical terms
 model         a 3D model instead of `form`: see assets/README.md

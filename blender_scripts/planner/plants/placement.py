@@ -9,12 +9,15 @@ import numpy as np
 
 from .. import assets
 from ..geometry.neighbours import pairs_within
-from ..geometry.poisson import poisson_points
+from ..geometry.poisson import fullest_per_m2, poisson_points
 from ..land.terrain import Terrain, slope_deg
 from ..noise import fractal_noise, lattice_uniform
 
 AREAS = 3  # open, mid, dense
 _PATCHINESS = 0.6  # relative variation of a species' density between patches
+_CLUMPS_M = 70.0  # side of a square with the middle of one clump, at which all species gather
+_GATHERED = 0.75  # share of the plants in clumps; estimate
+_CLUMP_SIZES = (0.4, 1.6)  # least and largest number of plants in a clump, relative to the mean; estimates
 _MOST_TAKEN = 0.5  # largest share of a scene taken by the footprints of other species
 _SHORE_M = 1.5
 _M2_PER_HA = 1e4
@@ -118,9 +121,13 @@ def _spaced(kind: _Species, standing: Sequence[tuple[_Species, np.ndarray]], sit
         for other, _ in standing:
             taken = shares @ other.per_m2 * np.pi * _apart_m(kind, other) ** 2
             free *= 1.0 - np.minimum(taken, _MOST_TAKEN)
-        return shares @ kind.per_m2 * _liking(kind, site.terrain, seed, x_m, y_m) / free
+        even = shares @ kind.per_m2 * _liking(kind, site.terrain, seed, x_m, y_m) / free
+        return even if clump_m == 0.0 else even * _clumping(seed, clump_m, most_per_m2, even, x_m, y_m)
 
+    clump_m = kind.data.get("clump_m", 0.0)
     most_per_m2 = kind.per_m2.max() * (1.0 + _PATCHINESS) * 1.2  # 1.2: for losses to others in dense areas
+    if clump_m > 0.0:
+        most_per_m2 = max(most_per_m2, min(10.0 * most_per_m2, fullest_per_m2(kind.data["spacing_m"])))
     cells, points_m = poisson_points(
         seed, kind.name, site.terrain.size_m, kind.data["spacing_m"], most_per_m2, wanted
     )
@@ -142,6 +149,24 @@ def _liking(kind: _Species, terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray
     rich = 1.0 + np.clip(2.0 * patches, -_PATCHINESS, _PATCHINESS)
     gentle, steep = kind.data["slope_deg"]
     return rich * np.clip((steep - slope_deg(terrain, x_m, y_m)) / (steep - gentle), 0.0, 1.0)
+
+
+def _clumping(seed: int, clump_m: float, most_per_m2: float, even_per_m2: np.ndarray, x_m, y_m) -> np.ndarray:
+    """Density in and between clumps, relative to an even one, with mean 1; less uneven where it would be above most."""
+    ix, iy = (np.floor(along_m / _CLUMPS_M - 0.5).astype(np.int64) for along_m in (x_m, y_m))
+    per_clump = _CLUMPS_M**2 / (np.pi * clump_m**2)
+    clumps = np.zeros(len(x_m))
+    for cell in ((ix, iy), (ix + 1, iy), (ix, iy + 1), (ix + 1, iy + 1)):
+        u, v, long, size = (lattice_uniform(seed, f"clumps/{name}", *cell) for name in "xyls")
+        off_x_m, off_y_m = x_m - _CLUMPS_M * (cell[0] + u), y_m - _CLUMPS_M * (cell[1] + v)
+        stretch = 0.7 + 0.7 * long
+        along_m, across_m = 0.8 * off_x_m + 0.6 * off_y_m, 0.8 * off_y_m - 0.6 * off_x_m
+        inside = (along_m * stretch) ** 2 + (across_m / stretch) ** 2 < clump_m**2
+        low, high = _CLUMP_SIZES
+        clumps += inside * per_clump * (low + (high - low) * size)
+    room = most_per_m2 / np.maximum(even_per_m2, 1e-12) - 1.0
+    gathered = np.clip(room / (_CLUMP_SIZES[1] * per_clump - 1.0), 0.0, _GATHERED)
+    return 1.0 + gathered * (clumps - 1.0)
 
 
 def _is_free(points_m: np.ndarray, data: dict, site: Site) -> np.ndarray:

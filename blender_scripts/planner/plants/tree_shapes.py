@@ -8,6 +8,7 @@ from ..geometry.shapes import Mesh, facets, joined
 from .branch_shapes import GOLDEN_ANGLE_RAD, branches, curve, directions, limb, loft_triangles
 from .leaf_shapes import blades, leafy_twigs
 
+_LOBED = 0.45  # of a crown's reach; estimate
 _ROOT_M = -0.3  # depth of trunks below the ground, which may slope
 # Material slots; branches and the stems of bushes, which follow the air as leaves do, use that of leaves.
 LEAVES, WOOD = range(2)
@@ -79,13 +80,22 @@ def tussock(data: dict, rng: np.random.Generator) -> Mesh:
     return blades(roots, tips, data["leaf_m"] * rng.uniform(0.7, 1.3, count), rng)
 
 
+def _lobed(angle: np.ndarray, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """Angles (n,) gathered in three lobes, and the relative reach of a crown there, as wide in all directions."""
+    phase_rad = rng.uniform(0.0, 2.0 * np.pi, 2)
+    aside = 3.0 * angle + phase_rad[0]
+    reach = 1.0 + _LOBED * (np.cos(aside) / 3.0 + np.cos(angle + phase_rad[1]) / 6.0)
+    return angle - 0.8 * _LOBED * np.sin(aside), reach
+
+
 def _on_disc(data: dict, rng: np.random.Generator) -> np.ndarray:
     """Centres (n, 3) of leafy pads, spread evenly over a horizontal disc with jitter, slightly lower at its rim."""
     count = data["clumps"]
     # A third of them lie on the rim: with only the last three there, the crown would be a triangle.
     out = np.minimum(1.2 * np.sqrt((np.arange(count) + 0.5) / count), 1.0) * rng.uniform(0.88, 1.06, count)
     angle = GOLDEN_ANGLE_RAD * np.arange(count) + rng.uniform(-0.25, 0.25, count)
-    reach = 0.5 * data["crown_diameter_m"] - _clump_reach(data)
+    angle, lobes = _lobed(angle, rng)
+    reach = (0.5 * data["crown_diameter_m"] - _clump_reach(data)) * lobes
     z = data["crown_thickness_m"] * (rng.uniform(-0.15, 0.15, count) - 0.3 * out**2)
     return np.stack([reach * out * np.cos(angle), reach * out * np.sin(angle), z], axis=1)
 
@@ -95,12 +105,13 @@ def _on_dome(data: dict, rng: np.random.Generator) -> np.ndarray:
     count = data["clumps"]
     ray = directions(rng, count)
     # The golden angle, unlike random angles, keeps the clumps apart; heights go from low to high and back.
-    angle = GOLDEN_ANGLE_RAD * np.arange(count)
+    angle, lobes = _lobed(GOLDEN_ANGLE_RAD * np.arange(count), rng)
     up = np.linspace(-0.75, 0.95, count)
     ring = np.sqrt(1.0 - up * up)
     ray = 0.25 * ray + np.stack([ring * np.cos(angle), ring * np.sin(angle), up], axis=1)
     half = 0.5 * np.array([data["crown_diameter_m"], data["crown_diameter_m"], data["crown_thickness_m"]])
     inset = np.maximum(half - _clump_reach(data), 0.3 * half)
+    ray[:, :2] *= lobes[:, None]
     return ray * inset * rng.uniform(0.7, 1.05, (count, 1)) + [0.0, 0.0, data["height_m"] - half[2]]
 
 
