@@ -94,8 +94,7 @@ def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) 
     places = [Place(site.name, site.middle_m, site.radius_m) for site in settlements]
     treads = replace(treads, strands=[*treads.strands, *plan_furrows(settlements, terrain)], places=places)
     hearths = [fire.hearth for fire in burning]
-    burnt = scene["terrain"]["burnt_fraction"]
-    lay_fine = partial(lay_fine_covers, terrain, covers, treads, burnt, hearths, seed)
+    lay_fine = partial(lay_fine_covers, terrain, covers, treads, scene["terrain"], hearths, seed)
     fine = cores.start(lay_fine) if with_ground else lambda: None
     clear = [*cast.corridors, *(fire.clearing for fire in burning)]
     built = [thing for site in settlements for thing in lay_out(site, terrain, clear)]

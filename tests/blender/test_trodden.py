@@ -5,12 +5,14 @@ import pytest
 
 from lands import SEED, SIZE_M, WILD, small_land
 from planner.geometry.splines import Line
+from planner.land.fine_covers import lay_kinds
 from planner.land.fine_grid import FineGrid
 from planner.land.strands import Halo, Strand, lay_strands
 from planner.land.trails import Place
-from planner.land.trodden import Treads, lay_fine_covers, lay_trodden, wheel_tracks
+from planner.land.trodden import Treads, lay_fine_covers, lay_pans, lay_trodden, wheel_tracks
 
 NO_TREADS = Treads([], [], [])
+PLAIN = {"burnt_fraction": 0.0, "pan_fraction": 0.0}
 
 
 def test_both_wheels_leave_a_track_on_the_road():
@@ -60,9 +62,6 @@ def test_trampled_ground_surrounds_the_water_and_trails_lead_there():
     assert min(rings) > 0.15  # at least one trail crosses each
 
 
-def test_nothing_leads_to_water_that_is_not_there():
-    terrain, _, grid = small_land(water_radius_m=0)
-    assert not lay_trodden(grid, terrain, Treads([], [], [np.array([50.0, 40.0])]), SEED).any()
 def test_foot_paths_lead_to_places_from_each_other_and_out_into_the_land():
     terrain, _, grid = small_land(water_radius_m=0)
     places = [Place("a", np.array([-70.0, -60.0]), 10.0), Place("b", np.array([70.0, 50.0]), 10.0)]
@@ -76,13 +75,16 @@ def test_foot_paths_lead_to_places_from_each_other_and_out_into_the_land():
     assert 0 < np.count_nonzero(again) < np.count_nonzero(trodden)
 
 
+def test_nothing_leads_to_water_that_is_not_there():
+    terrain, _, grid = small_land(water_radius_m=0)
+    assert not lay_trodden(grid, terrain, Treads([], [], [np.array([50.0, 40.0])]), SEED).any()
 
 
 def test_places_of_groups_are_trampled_unevenly():
     terrain, layers, grid = small_land(water_radius_m=0)
     halo = Halo((30.0, -20.0), 2.0, 12.0, 0.8)
     fine = lay_fine_covers(
-        terrain, layers, Treads([], [halo], []), 0.0, [Halo((0.0, 0.0), 0.3, 0.8, 1.0)], SEED
+        terrain, layers, Treads([], [halo], []), PLAIN, [Halo((0.0, 0.0), 0.3, 0.8, 1.0)], SEED
     )
     x_m, y_m = np.meshgrid(grid.middles_m, grid.middles_m)
     off_m = np.hypot(x_m - 30, y_m + 20)
@@ -91,7 +93,25 @@ def test_places_of_groups_are_trampled_unevenly():
     assert 200 < fine.ash.max() and np.hypot(x_m, y_m)[fine.ash > 0].max() < 1.5
 
 
+@pytest.mark.parametrize("fraction", [0.0, 0.05, 0.3])
+def test_pans_are_bare_ground_of_several_sizes_off_other_covers(fraction):
+    terrain, layers, grid = small_land(**WILD)
+    kind, _ = lay_kinds(grid, layers)
+    pans = lay_pans(grid, terrain, fraction, kind, SEED) / 255
+    assert not pans[kind != 0].any()
+    assert (pans[kind == 0] > 0.47).mean() == pytest.approx(fraction, abs=0.03)
+    if fraction > 0:
+        assert pans.max() > 0.9 and 0.02 < ((pans > 0.1) & (pans < 0.8)).mean() < fraction  # soft borders
+        trodden = lay_fine_covers(
+            terrain, layers, NO_TREADS, PLAIN | {"pan_fraction": fraction}, [], SEED
+        ).trodden
+        assert (trodden >= np.rint(255 * pans)).all()
+
+
 def test_other_seeds_have_other_maps():
     terrain, layers, _ = small_land()
-    one, other = (lay_fine_covers(terrain, layers, NO_TREADS, 0.1, [], seed) for seed in (1, 2))
+    one, other = (
+        lay_fine_covers(terrain, layers, NO_TREADS, PLAIN | {"burnt_fraction": 0.1}, [], seed)
+        for seed in (1, 2)
+    )
     assert not np.array_equal(one.trodden, other.trodden) and not np.array_equal(one.ash, other.ash)

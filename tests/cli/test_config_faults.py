@@ -39,7 +39,7 @@ FORM = {
         _with("scene.terrain.relief", 7),
         "scene.terrain.relief is not a known key; expected one of size_m, cell_m, relief_m, hill_wavelength_m,"
         " water_radius_m, pan_radius_m, hollow_depth_m, gully_depth_m, craggy_fraction, crag_relief_m, heightmap,"
-        " density_map, road, grass_fraction, grass_patch_m, burnt_fraction, area_wavelength_m;"
+        " density_map, road, grass_fraction, grass_patch_m, pan_fraction, burnt_fraction, area_wavelength_m;"
         ' did you mean "relief_m"?',
     ),
     "key nowhere near": (_with("temperature", 7), f"temperature is not a known key; expected one of {KEYS}"),

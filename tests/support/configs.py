@@ -48,6 +48,7 @@ _TINY = {
             "hollow_depth_m": 0,
             "gully_depth_m": 0,
             "craggy_fraction": 0,
+            "pan_fraction": 0,
             "road": {"width_m": 0},
         },
         "plants": {"acacia": {"per_ha": 30}, "shrub": {"per_ha": 100}},

@@ -14,6 +14,7 @@ from .terrain import Terrain
 SOIL, GRASS = "soil", "grass"
 
 _GRASS_OCTAVES = 5
+_STRETCH, _STRETCHES = 16.0, 1.8  # size, in patches, of stretches with little but grass or soil; their weight
 _WORN_M, _WORN_ALONG_M = 1.0, 40.0  # how far, and over what length, a road's borders wander; estimates
 _STRIP_M, _STRIP_MORE_M, _STRIP_ALONG_M = 0.2, 0.8, 60.0  # half of what grows between the wheels; estimates
 _BETWEEN_M = TRACK_M - 0.25  # beside it, the wheels keep the ground bare
@@ -93,7 +94,7 @@ def _plan_grass(terrain: Terrain, settings: dict, seed: int) -> Value | None:
     values = _patches(seed, patch_m, x_m[can_grow], y_m[can_grow])
     threshold = float(np.quantile(values, 1.0 - share)) if share < 1.0 else -np.inf
 
-    near_m = _BARE_MARGIN_M + 4.0 * patch_m  # farther away, the margin cannot be less than the patches' value
+    near_m = _BARE_MARGIN_M + 6.0 * patch_m  # farther away, the margin cannot be less than the patches' value
 
     def value(x_m, y_m) -> np.ndarray:
         margin = (terrain.shore_m(x_m, y_m, near_m) - _BARE_MARGIN_M) / patch_m
@@ -103,4 +104,6 @@ def _plan_grass(terrain: Terrain, settings: dict, seed: int) -> Value | None:
 
 
 def _patches(seed: int, patch_m: float, x_m, y_m) -> np.ndarray:
-    return fractal_noise(seed, "cover", x_m, y_m, 2.0 * patch_m, _GRASS_OCTAVES, gain=0.5)
+    stretches = fractal_noise(seed, "cover/stretch", x_m, y_m, _STRETCH * patch_m, octaves=2)
+    patches = fractal_noise(seed, "cover", x_m, y_m, 2.0 * patch_m, _GRASS_OCTAVES, gain=0.5)
+    return _STRETCHES * stretches + patches

@@ -16,8 +16,9 @@ from .terrain import Terrain
 
 BORDER_CELLS = 1.5  # largest known distance to a border
 
-_SPARSE, _DENSE = 0.08, 0.92  # shares of grass deep in bare soil, and deep in grass; estimates
-_RAMP = 0.15  # of the layer's value, to each side of the border: about as much of a patch's size
+# Shares of grass over the value of its layer, whose unit is about a patch's size; estimates. Far from their borders,
+# bare soil and grass are even.
+_GRASS_AT, _GRASS_SHARES = (-0.5, -0.15, -0.07, 0.07, 0.15, 0.5), (0.0, 0.08, 0.22, 0.78, 0.92, 0.99)
 _STEEP = 0.75  # a layer's border is searched where its value is below this share of the difference to its neighbours
 
 _BURNT_M = 15.0  # size of burnt patches; estimate
@@ -56,12 +57,12 @@ def lay_kinds(grid: FineGrid, layers: Sequence[Layer]) -> tuple[np.ndarray, np.n
 
 
 def lay_grass(grid: FineGrid, layers: Sequence[Layer], kinds: np.ndarray) -> np.ndarray:
-    """Shares under grass: a smooth ramp across the borders of the grass, averaged over some metres."""
+    """Shares under grass: a ramp across the borders of the grass, averaged over some metres."""
     values = [layer.value for layer in layers if layer.material == GRASS]
     if not values:
         return np.zeros_like(kinds)
     value = np.maximum.reduce([value(*grid.lattice()) for value in values])
-    share = _SPARSE + (_DENSE - _SPARSE) * smooth(0.5 + 0.5 * value / _RAMP)
+    share = np.interp(value, _GRASS_AT, _GRASS_SHARES)
     return refined_bytes(grid, blurred(share), kinds == 0)
 
 

@@ -1,4 +1,4 @@
-"""All fine maps of a scene, and the one of trodden ground: trails, paths, wheel tracks, and trampled halos."""
+"""All fine maps of a scene, and the one of trodden ground: trails, paths, wheel tracks, trampled halos, and pans."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.easing import smooth
 from ..noise import fractal_noise
 from .fine_covers import FineCovers, lay_ash, lay_grass, lay_kinds, refined_bytes
 from .covers import Layer
@@ -19,6 +20,8 @@ from .trails import Place, plan_trails
 _HARD = ("rock", "concrete")  # no traces of feet
 _WHEEL_M = 0.2  # half of a wheel track's width; estimate
 _WHEEL_SHARES = [0.95] * 2, [0.95] * 9 + [0.0]  # on the loop; on the spur, whose end fades
+_PAN_M, _PAN_SHARE = 25.0, 0.95  # size of pans, and share deep in them; estimates
+_PAN_BORDER = 0.06  # of their noise, to each side of a pan's border: about a metre
 _SHORE_SHARE, _SHORE_RAGGED = 0.85, 0.5
 _SHORE_REACH = 1.3  # of the water's radius: reach of its halo, at least _SHORE_LEAST_M; estimates
 _SHORE_LEAST_M = 12.0
@@ -40,17 +43,20 @@ def lay_fine_covers(
     terrain: Terrain,
     layers: Sequence[Layer],
     treads: Treads,
-    burnt_fraction: float,
+    settings: dict,
     hearths: Sequence[Halo],
     seed: int,
 ) -> FineCovers:
-    """The fine maps of a terrain with its covers, with ash on burnt_fraction of its dry ground and about hearths."""
+    """The fine maps of a terrain of `scene.terrain` with its covers, with ash about hearths too."""
     grid = FineGrid(terrain.size_m)
     kind, border = lay_kinds(grid, layers)
-    ash = lay_ash(grid, terrain, burnt_fraction, kind, seed)
+    ash = lay_ash(grid, terrain, settings["burnt_fraction"], kind, seed)
     lay_halos(ash, grid, hearths, seed)
     ash[kind != 0] = 0
-    trodden = lay_trodden(grid, terrain, treads, seed)
+    trodden = np.maximum(
+        lay_trodden(grid, terrain, treads, seed),
+        lay_pans(grid, terrain, settings["pan_fraction"], kind, seed),
+    )
     for number, layer in enumerate(layers, start=1):
         if layer.material in _HARD:
             trodden[kind == number] = 0
@@ -66,6 +72,19 @@ def lay_trodden(grid: FineGrid, terrain: Terrain, treads: Treads, seed: int) -> 
     if terrain.road is not None:
         lay_strands(trodden, grid, wheel_tracks(terrain.road), seed)
     return trodden
+
+
+def lay_pans(grid: FineGrid, terrain: Terrain, fraction: float, kinds: np.ndarray, seed: int) -> np.ndarray:
+    """Shares of even, packed ground in pans of several sizes, with soft borders, on a fraction of the dry ground, off
+    other covers.
+    """
+    x_m, y_m = grid.lattice()
+    dry = terrain.shore_m(x_m, y_m, 0.0) > 0
+    if fraction <= 0 or not dry.any():
+        return np.zeros_like(kinds)
+    pans = fractal_noise(seed, "pans", x_m, y_m, 4.0 * _PAN_M, octaves=5, gain=0.6)
+    above = pans - np.quantile(pans[dry], 1.0 - min(fraction, 1.0))
+    return refined_bytes(grid, _PAN_SHARE * smooth(0.5 + 0.5 * above / _PAN_BORDER), kinds == 0)
 
 
 def wheel_tracks(road: Road) -> list[Strand]:

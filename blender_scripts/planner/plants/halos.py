@@ -13,7 +13,7 @@ from ..land.terrain import Terrain
 from .placement import Planting
 
 _MOUND = "termite_mound"
-_BARE = (0.2, 2.2)  # beyond a mound of drawn size: end of the bare ring, and of its ramp; estimates
+_BARE = (0.8, 4.5)  # beyond a mound of drawn size: end of the bare ring, and of its ramp; estimates
 _SHARE = 0.85
 
 
