@@ -25,12 +25,12 @@ ACTOR = "Actors.IndexOB.X"
 
 # The engines compute in single precision, at places up to 100 m from the origin and distances of 8 m and more:
 # positions to 4e-6 m and directions to 1e-7, each several times over. That is 2e-6 of the distance or 2e-3 px. Rays
-# that are moved by ten times as much must be able to see what Blender does. If all of the picture moved by that, 240
+# that are moved by ten times as much must be able to see what Blender does. If all of the picture moved by that, 500
 # and more pixels of a frame would differ.
 ASIDE_PX = 0.02
-# Pixels of a frame in which an index differs: on average 0.4 in the clips of configs/demo.json and 1.5 in those of
-# configs/savanna.json; here 4 with Blender 4.2 and 5.0, 1 with 3.4.1.
-MOST_DIFFERING = 4
+# Pixels of all frames in which an index differs, as a share of those in which moving by ASIDE_PX changes one: .2 % with
+# Blender 3.4.1, up to .6 % in one frame.
+DIFFERING_SHARE = 0.01
 DEPTH_TOLERANCE = 1e-5  # relative
 NORMAL_TOLERANCE = 1e-3
 # Pixels of a frame that exceed those: 53 with Blender 3.4.1, 23 with 4.2 and 5.0, most of them leaves seen edge-on.
@@ -148,14 +148,18 @@ def test_the_place_shows_what_the_comparison_needs(engines):
 
 
 def test_indices_differ_at_silhouettes_alone(engines):
+    moved = next(engines.shifted())
+    between_engines = by_moving = 0
     for name, blender, embree in _frames(engines):
         for planes in ((OBJECT, MATERIAL), (ACTOR,)):
             differs = _differs(blender, embree, *planes)
-            assert np.count_nonzero(differs) <= MOST_DIFFERING, name
+            between_engines += np.count_nonzero(differs)
+            by_moving += np.count_nonzero(_differs(embree, read_planes(moved / name), *planes))
             for aside_px in (ASIDE_PX, ASIDE_PX / 4):  # leaves seen edge-on pass between rays farther apart
                 for folder in engines.shifted(aside_px) if differs.any() else ():
                     differs &= _differs(blender, read_planes(folder / name), *planes)
             assert not differs.any(), (name, np.argwhere(differs))
+    assert between_engines <= DIFFERING_SHARE * by_moving
 
 
 def test_depths_and_normals_are_the_same_elsewhere(engines):
