@@ -125,3 +125,12 @@ def test_frames_of_another_config_are_left_alone(veldt):
     done = fake_blender.generate(veldt, veldt.folder / "fake_blender", "--progress", "none")
     check_fault(done, 2, "--out = out/passes/down; expected no frames there, or frames of this plan")
     assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
+
+
+def test_a_manifest_that_is_there_is_not_written_again(veldt):
+    _render(veldt, "blender")
+    files = sorted((veldt.folder / "out" / "passes").glob("*/manifest.json"))
+    before = [file.stat().st_ino for file in files]
+    (files[0].parent / "000007.exr").unlink()
+    _render(veldt, "blender")
+    assert [file.stat().st_ino for file in files] == before

@@ -20,10 +20,7 @@ _SKEW, _SKEW_RAD = 0.14, 0.2  # of the half sides, and of the heading: how uneve
 _CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 _FURROW_POINTS, _OFF_ROAD_M = 16, 1.0
 _RIDGE_M = 0.35  # half width of what is packed between furrows; estimate
-_FURROWED, _LEFT = (0.9, 0.5), (
-    0.6,
-    0.9,
-)  # share of it and how it frays, on fields and on fallow land; estimates
+_FURROWED, _LEFT = (0.9, 0.5), (0.6, 0.9)  # its share, how it frays: on fields, on fallow land; estimates
 
 
 def plan_grounds(sites: Sequence[Settlement]) -> list[Layer]:

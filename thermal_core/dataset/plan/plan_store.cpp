@@ -138,8 +138,9 @@ PlanState PlanStore::state(const ResolvedConfig& config, bool preview) const {
   using enum PlanState::Kind;
   PlanState found;
   try {
-    for (const Path& needed : {plan_file(), preview ? folder_ / "preview" : plan_file()})
-      if (!std::filesystem::exists(needed)) throw DataError(needed.string() + " is missing");
+    if (!exists()) throw DataError(plan_file().string() + " is missing");
+    if (preview && !std::filesystem::exists(folder_ / "preview"))
+      throw DataError((folder_ / "preview").string() + " is missing");
     found.kind = damaged;
     const Json document = read_json(plan_file());
     if (document.is_object() && document.contains("version") && document.at("version") != kPlanVersion)

@@ -82,12 +82,13 @@ class Generator {
       for (const ClipSpec& clip : pending_) try_make(clip, tracer, monitor);
       return;
     }
-    const PlannedManifests manifests(spec_, options_, pending_);
+    const PlannedManifests manifests(spec_, options_);
+    manifests.write(pending_);
     ground_ = store_.ground_maps(spec_, manifests.scene());
     const ClipWork work = [&](const std::string& id, RenderJob& job, const Stop& stop_wanted) {
       try_make(spec_.clip(id, "clips"), manifests, job, stop_wanted, monitor);
     };
-    run_workers(passes_tasks(spec_, options_, ids_of(pending_), manifests, monitor), options_.threads, work,
+    run_workers(passes_tasks(spec_, options_, ids_of(pending_), monitor), options_.threads, work,
                 [&monitor] { return monitor.stop_wanted(); });
   }
 
@@ -108,7 +109,6 @@ class Generator {
     } catch (const ClipLost& fault) {
       fail_clip(clip, fault.what(), fault.killed(), monitor);
     } catch (const DataError& fault) {
-      job.rethrow_fault();
       reject(clip, fault.what(), monitor);
     } catch (const IoError& fault) {
       job.rethrow_fault();

@@ -61,32 +61,29 @@ std::vector<LeftOver> end_passes(const Layout& layout, const ResolvedConfig& con
   return left_over;
 }
 
-PlannedManifests::PlannedManifests(const DatasetSpec& spec, const GenerateOptions& options,
-                                   const std::vector<ClipSpec>& clips)
+PlannedManifests::PlannedManifests(const DatasetSpec& spec, const GenerateOptions& options)
     : spec_(spec),
       layout_{options.out, options.scratch},
       store_(options.plan, options.assets),
-      scene_(store_.scene(spec)) {
-  for (const ClipSpec& clip : clips)
-    if (std::filesystem::exists(layout_.passes(clip.id) / passes_name(0))) write(clip);
-}
+      scene_(store_.scene(spec)) {}
 
 Manifest PlannedManifests::of(const ClipSpec& clip) const {
   return manifest_of(scene_, store_.track(clip, scene_), spec_, clip);
 }
 
-void PlannedManifests::write(const ClipSpec& clip) const {
-  const std::string text = to_text(of(clip));
-  const Path folder = layout_.passes(clip.id);
-  if (has_content(folder / "manifest.json", text)) return;
-  if (std::filesystem::exists(folder / passes_name(0)))
-    throw ConfigError(fault("--out", folder.string(), "", "no frames there, or frames of this plan"));
-  write_file_atomically(folder / "manifest.json", text);
+void PlannedManifests::write(const std::vector<ClipSpec>& clips) const {
+  for (const ClipSpec& clip : clips) {
+    const std::string text = to_text(of(clip));
+    const Path folder = layout_.passes(clip.id);
+    if (has_content(folder / "manifest.json", text)) continue;
+    if (std::filesystem::exists(folder / passes_name(0)))
+      throw ConfigError(fault("--out", folder.string(), "", "no frames there, or frames of this plan"));
+    write_file_atomically(folder / "manifest.json", text);
+  }
 }
 
 std::vector<RenderJob::Task> passes_tasks(const DatasetSpec& spec, const GenerateOptions& options,
-                                          const std::vector<std::string>& clips,
-                                          const PlannedManifests& manifests, RunMonitor& monitor) {
+                                          const std::vector<std::string>& clips, RunMonitor& monitor) {
   const Layout layout{options.out, options.scratch};
   const auto hands = deal_clips(clips, options.jobs);
   const int threads = thread_count(options.threads);
@@ -103,10 +100,9 @@ std::vector<RenderJob::Task> passes_tasks(const DatasetSpec& spec, const Generat
                      .supersample = spec.supersample,
                      .actor_layer = spec.actor_layer,
                      .preview = false,
-                     .prepare = [&manifests, &spec](
-                                    const std::string& clip) { manifests.write(spec.clip(clip, "clips")); },
-                     .restarted = [&monitor](const std::string& clip,
-                                             const std::string& why) { monitor.restarted(clip, why); }});
+                     .restarted = [&monitor](const std::string& clip, const std::string& why) {
+                       monitor.restarted(clip, why);
+                     }});
   }
   return tasks;
 }

@@ -26,18 +26,17 @@ std::vector<LeftOver> end_passes(const Layout& layout, const ResolvedConfig& con
 /// The manifests of planned clips that Blender renders.
 class PlannedManifests {
  public:
-  /// Reads the scene. The dataset's clips and the options must outlive this object. Errors as PlanStore::scene() and, for
-  /// those of `clips` that have frames, as write().
-  PlannedManifests(const DatasetSpec& spec, const GenerateOptions& options,
-                   const std::vector<ClipSpec>& clips);
+  /// Reads the scene. `spec` must outlive this object. Errors as PlanStore::scene().
+  PlannedManifests(const DatasetSpec& spec, const GenerateOptions& options);
 
   [[nodiscard]] const BakedScene& scene() const noexcept { return scene_; }
 
   /// Errors as PlanStore::track().
   [[nodiscard]] Manifest of(const ClipSpec& clip) const;
 
-  /// Puts one beside the passes of its clip, unless it is there. ConfigError if there are frames of another.
-  void write(const ClipSpec& clip) const;
+  /// Puts those of some clips beside their passes, unless they are there; before Blender begins, which may be fast.
+  /// ConfigError if there are frames of another.
+  void write(const std::vector<ClipSpec>& clips) const;
 
  private:
   const DatasetSpec& spec_;
@@ -46,11 +45,10 @@ class PlannedManifests {
   BakedScene scene_;
 };
 
-/// The render jobs for these clips, one task each. They write manifests, and report restarts to the monitor.
+/// The render jobs for these clips, one task each. They report restarts to the monitor.
 [[nodiscard]] std::vector<RenderJob::Task> passes_tasks(const DatasetSpec& spec,
                                                         const GenerateOptions& options,
                                                         const std::vector<std::string>& clips,
-                                                        const PlannedManifests& manifests,
                                                         RunMonitor& monitor);
 
 }  // namespace thermal

@@ -106,7 +106,7 @@ RunOutcome render(const ResolvedConfig& config, const GenerateOptions& options, 
     outcome.complete = true;
     return outcome;
   }
-  const PlannedManifests manifests(spec, options, clips);
+  PlannedManifests(spec, options).write(clips);
   const ClipWork work = [&](const std::string& id, RenderJob& job, const std::function<bool()>& stop_wanted) {
     const ClipSpec& clip = spec.clip(id, "clips");
     monitor.begin(clip);
@@ -119,7 +119,7 @@ RunOutcome render(const ResolvedConfig& config, const GenerateOptions& options, 
       monitor.lost(clip, fault.what(), fault.killed());
     }
   };
-  run_workers(passes_tasks(spec, options, ids_of(clips), manifests, monitor), options.threads, work,
+  run_workers(passes_tasks(spec, options, ids_of(clips), monitor), options.threads, work,
               [&monitor] { return monitor.stop_wanted(); });
   RunOutcome outcome = monitor.outcome();
   outcome.complete = outcome.failed.empty();

@@ -132,10 +132,7 @@ void RenderJob::run(const std::stop_token& stop) {
 
 /// One Blender from start to end. Returns whether another is to go on.
 bool RenderJob::run_once(const std::stop_token& stop) {
-  const Task task = task_left();
-  for (const std::string& clip : task.clips)
-    if (task.prepare) task.prepare(clip);
-  ChildProcess process(render_command(task), task_.log);
+  ChildProcess process(render_command(task_left()), task_.log);
   while (!stop.stop_requested() && !process.ended()) {
     if (const auto line = process.next_line(kPollMs)) take_line(*line);
   }

@@ -71,8 +71,6 @@ class RenderJob {
     int supersample = 1;  ///< rays along each side of a pixel
     bool actor_layer = false;
     bool preview = false;  ///< pictures for people instead: the frames of one clip, kPreview
-    /// Called from a thread of its own before a Blender can begin with a clip.
-    std::function<void(const std::string& clip)> prepare = {};
     /// Called from a thread of its own when Blender died and is started again: over which clip, and why it died.
     std::function<void(const std::string& clip, const std::string& why)> restarted;
   };
