@@ -47,6 +47,8 @@ class Browser:
         self.complaints()  # those of the page before
         self._driver.get("about:blank")  # another fragment of a page does not load it again
         self._driver.get(page.resolve().as_uri() + fragment)
+        # A busy machine's driver can answer from the blank page before the new one takes its place.
+        self.wait_for("location.protocol === 'file:' && document.readyState === 'complete'")
 
     def run(self, script: str):
         """What a JavaScript function body returns."""
