@@ -4,10 +4,13 @@
 #include <vector>
 
 #include "dataset/dataset_file.h"
+#include "dataset/plan/plan_store.h"
 #include "dataset/run/monitor.h"
 #include "dataset/run/options.h"
 #include "dataset/run/render_job.h"
 #include "io/config/config.h"
+#include "scene/baked_scene.h"
+#include "scene/manifest.h"
 
 namespace thermal {
 
