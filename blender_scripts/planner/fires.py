@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from .geometry.shapes import Mesh, facets, joined
+from .land.corridors import Corridor
 from .land.dry_places import check_dry_place
 from .land.strands import Halo
 from .land.terrain import Terrain
 from .noise import stream
 from .plants.branch_shapes import directions, limb, loft_triangles
-from .plants.placement import Corridor
 
 MATERIAL, PARTS = "fire", ("embers", "ash", "flames")  # in the order of a mesh's slots
 _EMBERS, _ASH, _FLAMES = range(3)

@@ -17,6 +17,7 @@ from .groups.group_checks import check_groups
 from .groups.routes import plan_loops
 from .groups.site_rules import Land
 from .groups.treads import plan_treads
+from .land.corridors import Corridor
 from .land.covers import SOIL, Layer, plan_covers
 from .land.ground_maps import Ground, lay_ground
 from .land.road_plan import plan_road
@@ -25,7 +26,7 @@ from .land.trails import Place
 from .land.trodden import lay_fine_covers
 from .plants.density import plan_density
 from .plants.halos import with_halos
-from .plants.placement import Corridor, Planting, Site, place_plants, with_more
+from .plants.placement import Planting, Site, place_plants, with_more
 from .plants.plant_shapes import slots_of
 from .sites.crossings import plan_crossings
 from .sites.grounds import plan_furrows, plan_grounds

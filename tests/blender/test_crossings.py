@@ -9,7 +9,7 @@ from planner import assets
 from planner.geometry.rotations import heading_of
 from planner.land.road_plan import plan_road
 from planner.land.terrain import build_terrain
-from planner.plants.placement import Corridor
+from planner.land.corridors import Corridor
 from planner.sites.crossings import plan_crossings
 
 ANGLES = np.linspace(0, 2 * np.pi, 12, endpoint=False)

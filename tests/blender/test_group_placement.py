@@ -6,7 +6,7 @@ import pytest
 from scenes import tiny
 from planner.groups.collision_discs import cover, gather
 from planner.groups.herds import Room
-from planner.plants.placement import Corridor
+from planner.land.corridors import Corridor
 from planner.groups.placement import about, afloat, at_shore, find_spots, in_water, on_land
 from planner.land.terrain import build_terrain
 

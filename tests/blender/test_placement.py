@@ -10,7 +10,8 @@ from resolved import resolve
 from scenes import tiny
 from planner import assets
 from planner.geometry.neighbours import pairs_within
-from planner.plants.placement import AREAS, Corridor, Site, by_area, place_plants, slope_deg
+from planner.land.corridors import Corridor
+from planner.plants.placement import AREAS, Site, by_area, place_plants, slope_deg
 from planner.geometry.splines import Loop
 from planner.land.terrain import build_terrain
 

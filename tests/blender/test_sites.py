@@ -12,7 +12,7 @@ from planner.faults import ConfigError
 from planner.geometry.rotations import heading_of
 from planner.land.terrain import build_terrain
 from planner.outlines import outline_of
-from planner.plants.placement import Corridor
+from planner.land.corridors import Corridor
 from planner.sites.grounds import plan_furrows, plan_grounds
 from planner.sites.layout import lay_out, plantings_of
 from planner.sites.settlement import plan_settlements

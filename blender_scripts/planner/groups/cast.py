@@ -10,7 +10,7 @@ import numpy as np
 from .. import ids
 from ..faults import ConfigError
 from ..geometry.splines import Loop, Spot
-from ..plants.placement import Corridor
+from ..land.corridors import Corridor
 from .actors import Actor
 from .behaviours import Draft, draft_members, member_names, spacing_of
 from .collision_discs import TIMES_S, Crowd, cover, gather

@@ -8,10 +8,10 @@ import numpy as np
 
 from ..geometry.rotations import any_heading, left_of
 from ..geometry.splines import Line, Spot
+from ..land.corridors import Corridor, Corridors
 from ..land.terrain import Terrain
 from ..land.waters import Water
 from ..noise import stream
-from ..plants.placement import Corridor
 from .collision_discs import Crowd, centres, cover
 from .herds import Room
 
@@ -122,12 +122,13 @@ def along(line: Line, aside_m: float) -> Draw:
 
 def on_land(terrain: Terrain, corridors: Sequence[Corridor]) -> Allowed:
     """Whether a spot is dry, within the scene, and off the paths of others."""
+    walked = Corridors(corridors)
 
     def allowed(at_m: np.ndarray) -> bool:
         return bool(
             (terrain.shore_m(*at_m.T) > 0.0).all()
             and (np.abs(at_m) < 0.5 * terrain.size_m - _MARGIN_M).all()
-            and all(corridor.is_clear(at_m, _MARGIN_M) for corridor in corridors)
+            and walked.is_clear(at_m, _MARGIN_M)
         )
 
     return allowed

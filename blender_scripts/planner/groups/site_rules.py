@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from ..faults import ConfigError, did_you_mean, listing
 from ..geometry.splines import Loop
+from ..land.corridors import Corridor
 from ..land.terrain import Terrain
 from ..land.waters import Water
-from ..plants.placement import Corridor
 from . import placement
 from .behaviours import Draft, behaves
 

@@ -10,6 +10,7 @@ import numpy as np
 from .. import assets
 from ..geometry.neighbours import pairs_within
 from ..geometry.poisson import fullest_per_m2, poisson_points
+from ..land.corridors import Corridor, Corridors
 from ..land.terrain import Terrain, slope_deg
 from ..noise import fractal_noise, lattice_uniform
 
@@ -31,18 +32,6 @@ class Planting:
     yaw_rad: np.ndarray
     scale: np.ndarray
     variant: np.ndarray
-
-
-@dataclass(frozen=True)
-class Corridor:
-    """A walked line, points_m (n, 2) at most a metre apart, and how far from it the walkers' bodies extend."""
-
-    points_m: np.ndarray
-    half_width_m: float
-
-    def is_clear(self, points_m: np.ndarray, by_m: float) -> bool:
-        """Whether all points (n, 2) are at least by_m away from walkers."""
-        return len(pairs_within(points_m, self.points_m, by_m + self.half_width_m)[0]) == 0
 
 
 def _even_shares(x_m: np.ndarray, _) -> np.ndarray:
@@ -174,10 +163,7 @@ def _is_free(points_m: np.ndarray, data: dict, site: Site) -> np.ndarray:
     x_m, y_m = points_m.T
     free = site.terrain.shore_m(x_m, y_m) > _SHORE_M + data["foot_m"]
     free &= site.road_m(x_m, y_m) > data["foot_m"]
-    for corridor in site.corridors:
-        taken, _ = pairs_within(points_m, corridor.points_m, data["clearance_m"] + corridor.half_width_m)
-        free[taken] = False
-    return free
+    return free & ~Corridors(site.corridors).taken(points_m, data["clearance_m"])
 
 
 def _planting(

@@ -8,9 +8,9 @@ import numpy as np
 
 from .. import assets
 from ..geometry.rotations import heading_of
+from ..land.corridors import Corridor, Corridors
 from ..land.roads import Road
 from ..land.terrain import Terrain
-from ..plants.placement import Corridor
 from .layout import Standing
 
 _APART_M = 40.0  # between crossings
@@ -25,12 +25,12 @@ def plan_crossings(terrain: Terrain, corridors: Sequence[Corridor]) -> list[Stan
 
     Where walkers' corridors meet a wall, there is none.
     """
-    road, found = terrain.road, []
+    road, walked, found = terrain.road, Corridors(corridors), []
     if road is None:
         return found
     for _, thing in sorted(_candidates(terrain, road), key=lambda each: -each[0]):
         apart_m = [np.linalg.norm(thing.point_m - other.point_m) for other in found]
-        if min(apart_m, default=np.inf) >= _APART_M and _is_clear(thing, road.width_m, corridors):
+        if min(apart_m, default=np.inf) >= _APART_M and _is_clear(thing, road.width_m, walked):
             found.append(thing)
     return found
 
@@ -47,11 +47,11 @@ def _candidates(terrain: Terrain, road: Road) -> Iterator[tuple[float, Standing]
                 yield float(height_m), Standing(name, points_m[k], yaw_rad, road.width_m / _BUILT_FOR_M)
 
 
-def _is_clear(thing: Standing, width_m: float, corridors: Sequence[Corridor]) -> bool:
+def _is_clear(thing: Standing, width_m: float, corridors: Corridors) -> bool:
     """Whether walls are clear of walkers."""
     clear_m = assets.standing(thing.name)["clearance_m"]
     along_m = np.arange(-thing.foot_m, thing.foot_m + _WALL_STEP_M, _WALL_STEP_M)[:, None]
     ahead, left = heading_of(thing.yaw_rad), heading_of(thing.yaw_rad + 0.5 * np.pi)
     middle_m = thing.point_m + along_m * ahead
     walls_m = np.concatenate([middle_m + side * 0.5 * width_m * left for side in (-1.0, 1.0)])
-    return all(corridor.is_clear(walls_m, clear_m) for corridor in corridors)
+    return corridors.is_clear(walls_m, clear_m)

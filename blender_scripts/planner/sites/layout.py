@@ -9,9 +9,10 @@ import numpy as np
 
 from .. import assets
 from ..geometry.rotations import any_heading, heading_of
+from ..land.corridors import Corridor, Corridors
 from ..land.terrain import Terrain
 from ..noise import stream
-from ..plants.placement import Corridor, Planting
+from ..plants.placement import Planting
 from .settlement import Settlement
 
 _TRIES = 60  # positions tried for each object
@@ -43,7 +44,7 @@ class Layout:
 
     site: Settlement
     terrain: Terrain
-    corridors: Sequence[Corridor]
+    corridors: Corridors
     things: list[Standing] = field(default_factory=list)
 
     def is_free(self, thing: Standing) -> bool:
@@ -62,7 +63,7 @@ class Layout:
         if float(self.terrain.road_m(x_m, y_m)[0]) < foot_m:
             return False
         clear_m = assets.standing(thing.name)["clearance_m"] + foot_m
-        return all(corridor.is_clear(at_m, clear_m) for corridor in self.corridors)
+        return self.corridors.is_clear(at_m, clear_m)
 
     def add_first_free(self, tries: Iterator[Standing]) -> None:
         """Add the first of some objects that can stand at its position, if any."""
@@ -73,7 +74,7 @@ class Layout:
 
 def lay_out(site: Settlement, terrain: Terrain, corridors: Sequence[Corridor]) -> list[Standing]:
     """All objects of a settlement, rule by rule in the order of its file."""
-    layout = Layout(site, terrain, corridors)
+    layout = Layout(site, terrain, Corridors(corridors))
     for number, rule in enumerate(site.rules["objects"]):
         kind = next((kind for kind in _RULES if kind in rule), "scatter")
         _RULES.get(kind, _scatter)(layout, rule, number)
