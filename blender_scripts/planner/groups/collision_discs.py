@@ -36,7 +36,7 @@ class Crowd:
     def ring_m(self) -> tuple[np.ndarray, np.ndarray]:
         """A disc, centre (t, 2) and radius (t,), around all discs of the crowd."""
         middle = self.centre_m.mean(axis=1)
-        reach = (np.linalg.norm(self.centre_m - middle[:, None], axis=-1) + self.radius_m).max(axis=1)
+        reach = (_length_m(self.centre_m - middle[:, None]) + self.radius_m).max(axis=1)
         return middle, reach
 
 
@@ -56,7 +56,7 @@ def centres(discs: Discs, point_m: np.ndarray, heading: np.ndarray) -> np.ndarra
 def gather(bodies: Sequence[tuple[Discs, np.ndarray, np.ndarray]]) -> Crowd:
     """The crowd of bodies, each with points (t, 2) and headings (t, 2) at TIMES_S; t is 1 if none of them moves."""
     centre_m = np.concatenate([centres(*body) for body in bodies], axis=1)
-    steps_m = np.linalg.norm(np.diff(centre_m, axis=0), axis=-1)
+    steps_m = _length_m(np.diff(centre_m, axis=0))
     return Crowd(
         centre_m,
         np.concatenate([np.full(len(discs.ahead_m), discs.radius_m) for discs, _, _ in bodies]),
@@ -85,12 +85,17 @@ def clear_until_s(one: Crowd, other: Crowd, gap_m: float) -> float:
 def _gaps_m(one: Crowd, other: Crowd, moments: np.ndarray) -> np.ndarray:
     """Distances (n,) of the nearest two discs at moments (n,), given as indices into TIMES_S."""
     a, b = (crowd.centre_m[moments % len(crowd.centre_m)] for crowd in (one, other))
-    gaps_m = np.linalg.norm(a[:, :, None] - b[:, None, :], axis=-1) - one.radius_m[:, None] - other.radius_m
+    gaps_m = _length_m(a[:, :, None] - b[:, None, :]) - one.radius_m[:, None] - other.radius_m
     return gaps_m.min(axis=(1, 2), initial=np.inf)
 
 
 def _bounds_m(one: Crowd, other: Crowd) -> tuple[np.ndarray, np.ndarray]:
     """Lower and upper bounds (t,) of the distance between the nearest discs of two crowds."""
     (middle, reach), (others_middle, others_reach) = one.ring_m, other.ring_m
-    between_m = np.linalg.norm(middle - others_middle, axis=1)
+    between_m = _length_m(middle - others_middle)
     return between_m - reach - others_reach, between_m + reach + others_reach
+
+
+def _length_m(offset_m: np.ndarray) -> np.ndarray:
+    """Of offsets (..., 2): several times as fast as numpy.linalg.norm, to the same bits."""
+    return np.sqrt(offset_m[..., 0] ** 2 + offset_m[..., 1] ** 2)
