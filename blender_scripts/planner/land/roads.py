@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..geometry.easing import smooth
-from ..geometry.neighbours import pairs_within
+from ..geometry.neighbours import Neighbours
 from ..geometry.splines import Line, Loop
 
 SHOULDER_M = 2.5  # width of the shoulder that blends the road into the land
@@ -66,6 +66,8 @@ class Road:
         height = np.array(height_m, float)
         flat = height.reshape(-1)
         about, places = self._about(x_m, y_m)
+        if len(about) == 0:
+            return height
         most, total, weighted = (np.zeros(len(about)) for _ in range(3))
         for line in range(len(self.lines)):
             k, off_m, bed_m = self._nearest(line, places)
@@ -90,7 +92,7 @@ class Road:
         if len(places) == 0:
             return np.zeros(0, np.int64), np.zeros(0), np.zeros(0)
         start, along, low, high = self._segments[line]
-        i, j = pairs_within(places, start + 0.5 * along, self.reach_m + _STEP_M)
+        i, j = self._middles[line].pairs(places)
         along_x, along_y = along.T[:, j]
         from_x, from_y = (of[i] - begin[j] for of, begin in zip(places.T, start.T))
         length2 = along_x**2 + along_y**2
@@ -107,6 +109,13 @@ class Road:
         return [
             (points[:-1], np.diff(points, axis=0), bed[:-1], bed[1:])
             for points, bed in zip(self.points_m, self.bed_m)
+        ]
+
+    @cached_property
+    def _middles(self) -> list[Neighbours]:
+        """For each line: the middles of its segments."""
+        return [
+            Neighbours(start + 0.5 * along, self.reach_m + _STEP_M) for start, along, _, _ in self._segments
         ]
 
     @cached_property
