@@ -27,12 +27,12 @@ class Frusta:
         """Mask (..., n) of the poses whose picture may show spheres at any height in a range.
 
         x_m and y_m (..., n) are their centres', z_m the range of their centres' heights, numbers or (..., n); radius_m
-        is a number or (..., 1). False only where a sphere is entirely outside one of the planes.
+        is a number, (..., n) or (..., 1). False only where a sphere is entirely outside one of the planes.
         """
         east, north, up = self.normals
         x_m, y_m, low_m, high_m = (np.atleast_1d(along)[..., None, :] for along in (x_m, y_m, *z_m))
         nearest_m = np.minimum(up * low_m, up * high_m) - self.offsets_m
-        inside = east * x_m + north * y_m + nearest_m < np.asarray(radius_m)[..., None]
+        inside = east * x_m + north * y_m + nearest_m < np.atleast_1d(radius_m)[..., None, :]
         return inside.all(axis=-2)
 
 

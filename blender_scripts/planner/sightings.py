@@ -10,20 +10,27 @@ from .camera import Intrinsics, project
 from .flight.poses import Flight
 from .frusta import Frusta, frusta_of
 from .geometry.rotations import left_of
-from .groups.actors import Actor, Track, ground_path
+from .groups.actors import Actor, Company, Track
+
+_PLACES_AT_ONCE = 4096  # of actors in frames
 
 
 def sightings(intrinsics: Intrinsics, flight: Flight, actors: list[Actor]) -> np.ndarray:
     """Mask of frames (n,) in which the box of an actor overlaps the picture; occlusion is ignored."""
-    frusta = frusta_of(intrinsics, flight.camera_to_world)
-    seen = np.zeros(len(flight.time_s), bool)
-    for actor in actors:
+    frusta, company = frusta_of(intrinsics, flight.camera_to_world), Company(actors)
+    radii_m = np.array([_radius_m(actor) for actor in actors])
+    seen, first = np.zeros(len(flight.time_s), bool), 0
+    while first < len(actors) and not seen.all():
         left = np.flatnonzero(~seen)
-        if not len(left):
-            break
-        near, walk = _near(frusta.at(left), flight.time_s[left], actor)
-        frames = left[near]
-        seen[frames] = _is_in_frame(intrinsics, flight.camera_to_world[frames], actor, walk)
+        some = np.arange(first, min(len(actors), first + max(1, _PLACES_AT_ONCE // len(left))))
+        first = int(some[-1]) + 1
+        of, frames = np.repeat(some, len(left)), np.tile(left, len(some))
+        near, walk = _near(frusta.at(frames), flight.time_s[frames], company, of, radii_m[of])
+        for k in np.unique(of[near]):
+            its = of[near] == k
+            at = frames[near][its]
+            its_walk = Track(walk.position_m[its], walk.heading[its])
+            seen[at] |= _is_in_frame(intrinsics, flight.camera_to_world[at], actors[k], its_walk)
     return seen
 
 
@@ -39,18 +46,20 @@ def may_be_in_frame(
     return frusta.may_show(x_m, y_m, (z_m, z_m), slack * radii_m)
 
 
-def _near(frusta: Frusta, time_s: np.ndarray, actor: Actor) -> tuple[np.ndarray, Track]:
-    """The frames whose picture may show a sphere around an actor's box, and the actor's track in them.
+def _near(
+    frusta: Frusta, time_s: np.ndarray, company: Company, of: np.ndarray, radius_m: np.ndarray
+) -> tuple[np.ndarray, Track]:
+    """The moments (n,) of actors whose picture may show a sphere around the actor's box, and the tracks in them.
 
-    Most frames are excluded before the height of the ground is computed, the most expensive step.
+    Most moments are excluded before the height of the ground is computed, the most expensive step.
     """
-    radius_m = _radius_m(actor)
-    point, heading = ground_path(actor, time_s)
-    frames = np.flatnonzero(frusta.may_show(*point.T, actor.terrain.range_m, radius_m))
-    height_m = actor.terrain.height_m(*point[frames].T)
-    near = frusta.at(frames).may_show(*point[frames].T, (height_m, height_m), radius_m)
-    frames = frames[near]
-    return frames, Track(np.column_stack([point[frames], height_m[near]]), heading[frames])
+    terrain = company.actors[0].terrain
+    point, heading = company.ground_path(of, time_s)
+    moments = np.flatnonzero(frusta.may_show(*point.T, terrain.range_m, radius_m))
+    height_m = terrain.height_m(*point[moments].T)
+    near = frusta.at(moments).may_show(*point[moments].T, (height_m, height_m), radius_m[moments])
+    moments = moments[near]
+    return moments, Track(np.column_stack([point[moments], height_m[near]]), heading[moments])
 
 
 def _radius_m(actor: Actor) -> float:

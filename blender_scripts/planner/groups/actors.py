@@ -161,12 +161,6 @@ def _alone(actor: Actor, time_s: np.ndarray) -> tuple[Company, tuple[np.ndarray,
     return Company([actor]), (np.zeros(len(time_s), np.int64), np.asarray(time_s, float))
 
 
-def ground_path(actor: Actor, time_s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The actor's points (n, 2) and headings (n, 2) at times (n,)."""
-    company, moments = _alone(actor, time_s)
-    return company.ground_path(*moments)
-
-
 def track(actor: Actor, time_s: np.ndarray) -> Track:
     """The actor's track on the ground at times (n,)."""
     company, moments = _alone(actor, time_s)
