@@ -41,7 +41,7 @@ class Neighbours:
 
 
 def pairs_within(a_m: np.ndarray, b_m: np.ndarray, radius_m: float) -> tuple[np.ndarray, np.ndarray]:
-    """Indices (i, j), each (n,), of all pairs of points a_m[i] and b_m[j], (k, 2) and (l, 2), less than radius_m apart."""
+    """Indices (i, j), each (n,), of all pairs of points a_m[i] (k, 2) and b_m[j] (l, 2) less than radius_m apart."""
     return Neighbours(b_m, radius_m).pairs(a_m)
 
 
