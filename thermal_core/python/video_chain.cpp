@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/rng.h"
 #include "io/assets.h"
 #include "io/config/distribution.h"
@@ -20,6 +21,7 @@ namespace thermal::python {
 namespace {
 
 constexpr int kCountsPerLevel = 256;
+constexpr std::size_t kNoisyPixelsPerChunk = 128 * kRandomBatch;
 constexpr double kLeastCount = 1;  // 0 and 65535 are pixels without a measurement
 constexpr double kMostCount = 65534;
 constexpr const char* kFieldMotion = "field_motion_px";
@@ -46,12 +48,15 @@ Plane<std::uint16_t> counts_of(const Plane<std::uint8_t>& picture) {
 
 /// Adds the white noise of another detector.
 void add_noise(double levels, const RandomField& field, Plane<std::uint16_t>& counts) {
-  std::vector<float> noise(counts.size());
-  fill_normal(field, 0, noise);
-  for (std::size_t i = 0; i < noise.size(); ++i) {
-    const double noisy = counts.pixels()[i] + kCountsPerLevel * levels * static_cast<double>(noise[i]);
-    counts.pixels()[i] = static_cast<std::uint16_t>(std::clamp(std::round(noisy), kLeastCount, kMostCount));
-  }
+  const auto pixels = counts.pixels();
+  parallel_for(pixels.size(), kNoisyPixelsPerChunk, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> noise(end - begin);
+    fill_normal(field, begin, noise);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double noisy = pixels[i] + kCountsPerLevel * levels * static_cast<double>(noise[i - begin]);
+      pixels[i] = static_cast<std::uint16_t>(std::clamp(std::round(noisy), kLeastCount, kMostCount));
+    }
+  });
 }
 
 void process(const ProcessingParameters& parameters, const Plane<std::uint16_t>& counts,
