@@ -103,6 +103,8 @@ def locale_faults(path: Path) -> list[str]:
 def file_faults(path: Path) -> list[str]:
     """All faults of one file."""
     faults = machine_path_faults(path)
+    if path.suffix in (".cpp", ".h") and path.stat().st_size == 0:
+        faults.append(f"{path}: empty; expected code")
     if path.suffix == ".json":
         faults += json_faults(path)
     if path.suffix in (".cpp", ".h") and path.parts[0] in ("thermal_core", "cli"):

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <array>
-#include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "cli/output.h"
+#include "cli/parser.h"
 #include "io/assets.h"
 #include "io/config/config.h"
 #include "io/json/file.h"
@@ -29,56 +28,39 @@ inline constexpr std::array<std::pair<int, const char*>, 5> kExitMeanings = {
 /// The program's purpose, without a full stop.
 inline constexpr const char* kPurpose = "Labelled thermal drone video of the savanna, for training detectors";
 
-/// Options of every command.
-struct CommonOptions {
-  bool quiet = false;
-  std::string progress = "auto";
-  int threads = 0;
-};
+/// Each adds one command.
+void add_generate(Parser& parser);
+void add_render(Parser& parser);
+void add_plan(Parser& parser);
+void add_convert(Parser& parser);
+void add_merge(Parser& parser);
+void add_cluster(Parser& parser);
+void add_export(Parser& parser);
+void add_inspect(Parser& parser);
+void add_validate(Parser& parser);
+void add_evaluate(Parser& parser);
+void add_compare(Parser& parser);
+void add_fit(Parser& parser);
+void add_report(Parser& parser);
+void add_video(Parser& parser);
+void add_view(Parser& parser);
+void add_stream(Parser& parser);
+void add_balance(Parser& parser);
+void add_budget(Parser& parser);
+void add_heat(Parser& parser);
+void add_radiance(Parser& parser);
+void add_camera(Parser& parser);
+void add_bench(Parser& parser);
+void add_doctor(Parser& parser);
 
-/// A parsed command line: the command to run, and common options.
-struct Session {
-  CommonOptions common;
-  std::function<int()> run;
-};
-
-/// Each adds one command to the parser; parsing sets session.run.
-void add_generate(CLI::App& app, Session& session);
-void add_render(CLI::App& app, Session& session);
-void add_plan(CLI::App& app, Session& session);
-void add_convert(CLI::App& app, Session& session);
-void add_merge(CLI::App& app, Session& session);
-void add_cluster(CLI::App& app, Session& session);
-void add_export(CLI::App& app, Session& session);
-void add_inspect(CLI::App& app, Session& session);
-void add_validate(CLI::App& app, Session& session);
-void add_evaluate(CLI::App& app, Session& session);
-void add_compare(CLI::App& app, Session& session);
-void add_fit(CLI::App& app, Session& session);
-void add_report(CLI::App& app, Session& session);
-void add_video(CLI::App& app, Session& session);
-void add_view(CLI::App& app, Session& session);
-void add_stream(CLI::App& app, Session& session);
-void add_balance(CLI::App& app, Session& session);
-void add_budget(CLI::App& app, Session& session);
-void add_heat(CLI::App& app, Session& session);
-void add_radiance(CLI::App& app, Session& session);
-void add_camera(CLI::App& app, Session& session);
-void add_bench(CLI::App& app, Session& session);
-void add_doctor(CLI::App& app, Session& session);
-
-/// Adds the program's description and all of these commands to a new parser.
-void add_commands(CLI::App& app, Session& session);
-
-/// A subcommand with the common options.
-CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
-                      const std::string& description);
+/// The program's parser, with all of these commands.
+[[nodiscard]] std::unique_ptr<Parser> make_parser();
 
 /// Adds --set KEY=VALUE …, changes to a config.
-void add_settings(CLI::App* command, std::vector<std::string>& settings);
+void add_settings(Command& command, std::vector<std::string>& settings);
 
 /// Adds --engine NAME, an alias of --set render.engine=NAME.
-void add_engine(CLI::App* command, std::string& engine);
+void add_engine(Command& command, std::string& engine);
 
 /// The settings, with the engine if one is given.
 [[nodiscard]] std::vector<std::string> with_engine(std::vector<std::string> settings,
@@ -107,10 +89,10 @@ void watch_for_stop();
 [[nodiscard]] int stop_signal() noexcept;
 
 /// Adds --box-style, which sets `style`.
-void add_box_style(CLI::App& command, thermal::BoxStyle& style, const std::string& help);
+void add_box_style(Command& command, thermal::BoxStyle& style, const std::string& help);
 
 /// Adds --max-megapixels N to a command that reads passes.
-void add_max_megapixels(CLI::App* command, double& max_megapixels);
+void add_max_megapixels(Command& command, double& max_megapixels);
 
 /// The limits of --max-megapixels. ConfigError if it is not a number of pixels.
 [[nodiscard]] thermal::ReadLimits read_limits(double max_megapixels);

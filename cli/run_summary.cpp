@@ -129,14 +129,14 @@ void print_left_over(const std::vector<thermal::LeftOver>& left_over) {
     print_error("veldt: warning: cannot remove {}: {}; the next run tries again\n", place.string(), reason);
 }
 
-void add_max_unusable(CLI::App* command, double& max_unusable_share) {
+void add_max_unusable(Command& command, double& max_unusable_share) {
   command
-      ->add_option(
+      .add_option(
           "--max-unusable-share", max_unusable_share,
           "Exit 3 if a larger share of a clip's pixels has no usable depth or normal where a kept term "
           "needs one: NaN, infinite, depth of 0 or less, a normal of length 0. Smaller ones are warned of")
-      ->type_name("FRACTION")
-      ->capture_default_str();
+      .type_name("FRACTION")
+      .shows_default();
 }
 
 void check_max_unusable(double max_unusable_share) {

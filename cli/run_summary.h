@@ -11,7 +11,7 @@ namespace veldt {
 inline constexpr double kMostUnusable = 0.01;
 
 /// Adds --max-unusable-share. ConfigError at check_max_unusable() unless from 0 to 1.
-void add_max_unusable(CLI::App* command, double& max_unusable_share);
+void add_max_unusable(Command& command, double& max_unusable_share);
 void check_max_unusable(double max_unusable_share);
 
 /// Warns of temporary files and folders that could not be removed. They do not affect the data, nor the exit code.

@@ -17,7 +17,7 @@ from .groups.group_checks import check_groups
 from .groups.routes import plan_loops
 from .groups.site_rules import Land
 from .groups.treads import plan_treads
-from .land.corridors import Corridor
+from .land.corridors import Corridor, Corridors
 from .land.covers import SOIL, Layer, plan_covers
 from .land.ground_maps import Ground, lay_ground
 from .land.road_plan import plan_road
@@ -97,11 +97,12 @@ def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) 
     hearths = [fire.hearth for fire in burning]
     lay_fine = partial(lay_fine_covers, terrain, covers, treads, scene["terrain"], hearths, seed)
     fine = cores.start(lay_fine) if with_ground else lambda: None
-    clear = [*cast.corridors, *(fire.clearing for fire in burning)]
-    built = [thing for site in settlements for thing in lay_out(site, terrain, clear)]
-    built += plan_crossings(terrain, clear)
-    clear += [Corridor(thing.point_m[None], thing.foot_m) for thing in built]
-    site = Site(terrain, areas.shares, terrain.road_m, clear)
+    taken = [*cast.corridors, *(fire.clearing for fire in burning)]
+    corridors = Corridors(taken)
+    built = [thing for site in settlements for thing in lay_out(site, terrain, corridors)]
+    built += plan_crossings(terrain, corridors)
+    taken += [Corridor(thing.point_m[None], thing.foot_m) for thing in built]
+    site = Site(terrain, areas.shares, terrain.road_m, Corridors(taken))
     plantings = cores.start(lambda: place_plants(scene["plants"], site, seed))
     measure(cast.actors, cores)
     intrinsics = intrinsics_of(config["camera"])

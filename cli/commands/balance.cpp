@@ -316,45 +316,42 @@ int run_balance(const BalanceArguments& options, bool quiet) {
 
 }  // namespace
 
-void add_balance(CLI::App& app, Session& session) {
-  CLI::App* command =
-      add_command(app, session, "balance",
-                  "Select frames so that small, medium and large animals and poachers are drawn\n"
-                  "evenly from all videos, within bounds for each class");
-  command->footer(
+void add_balance(Parser& parser) {
+  Command command =
+      parser.add_command("balance",
+                         "Select frames so that small, medium and large animals and poachers are drawn\n"
+                         "evenly from all videos, within bounds for each class");
+  command.footer(
       "Example: veldt balance my_dataset real --out chosen.json --per-class small_poacher=200:2000");
   auto options = std::make_shared<BalanceArguments>();
+  command.add_option("datasets", options->datasets, "Datasets, BIRDSAI folders or COCO files; never modified")
+      .required()
+      .type_name("DATASET…");
   command
-      ->add_option("datasets", options->datasets, "Datasets, BIRDSAI folders or COCO files; never modified")
-      ->required()
-      ->type_name("DATASET…");
+      .add_option("--per-class", options->per_class,
+                  "Number of labels per class, e.g. 500:800 small_poacher=200:800.\n"
+                  "Classes: small_animal, medium_animal, large_animal, small_poacher, medium_poacher,\n"
+                  "large_poacher (or _human); classes that are not listed have no bounds.\n"
+                  "Taking all labels of a class, where HI allows it, counts as perfectly even")
+      .required()
+      .type_name("[CLASS=]LO:HI …");
+  command.add_option("--out", options->out, "The selection: a file that `veldt export --selection` reads")
+      .required()
+      .type_name("FILE");
+  command.add_option("--seed", options->seed, "Random seed: which of several equivalent frames are selected")
+      .shows_default();
   command
-      ->add_option("--per-class", options->per_class,
-                   "Number of labels per class, e.g. 500:800 small_poacher=200:800.\n"
-                   "Classes: small_animal, medium_animal, large_animal, small_poacher, medium_poacher,\n"
-                   "large_poacher (or _human); classes that are not listed have no bounds.\n"
-                   "Taking all labels of a class, where HI allows it, counts as perfectly even")
-      ->required()
-      ->type_name("[CLASS=]LO:HI …");
-  command->add_option("--out", options->out, "The selection: a file that `veldt export --selection` reads")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--seed", options->seed, "Random seed: which of several equivalent frames are selected")
-      ->capture_default_str();
+      .add_option("--gap", options->balance.gap,
+                  "Largest accepted gap to the optimum, as a fraction of the objective")
+      .between(0.0, 1.0)
+      .shows_default();
   command
-      ->add_option("--gap", options->balance.gap,
-                   "Largest accepted gap to the optimum, as a fraction of the objective")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command
-      ->add_option("--time-limit-s", options->balance.time_limit_s,
-                   "Time limit, after which the best selection found so far is written")
-      ->check(CLI::Range(0.001, 1e6))
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "Print the table as JSON");
-  command->callback([options, &session] {
-    session.run = [options, &session] { return run_balance(*options, session.common.quiet); };
-  });
+      .add_option("--time-limit-s", options->balance.time_limit_s,
+                  "Time limit, after which the best selection found so far is written")
+      .between(0.001, 1e6)
+      .shows_default();
+  command.add_flag("--json", options->json, "Print the table as JSON");
+  command.runs([options](const CommonOptions& common) { return run_balance(*options, common.quiet); });
 }
 
 }  // namespace veldt

@@ -209,25 +209,20 @@ int run_bench(const BenchArguments& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_bench(CLI::App& app, Session& session) {
-  CLI::App* command =
-      add_command(app, session, "bench", "Speed and error of every kernel, measured on this machine");
-  command->footer("Example: veldt bench --suite engines");
+void add_bench(Parser& parser) {
+  Command command = parser.add_command("bench", "Speed and error of every kernel, measured on this machine");
+  command.footer("Example: veldt bench --suite engines");
   auto options = std::make_shared<BenchArguments>();
-  command->add_option("--suite", options->suite, "What to measure")
-      ->check(CLI::IsMember(suite_names()))
-      ->capture_default_str();
+  command.add_option("--suite", options->suite, "What to measure").one_of(suite_names()).shows_default();
   command
-      ->add_option("--blender", options->blender,
-                   "Blender that --suite render and engines measure, instead of the one on PATH")
-      ->type_name("PATH");
-  command->add_option("--only", options->only, "Group of rows that --suite truth measures, instead of all")
-      ->check(CLI::IsMember(thermal::truth_groups()))
-      ->type_name("GROUP");
-  command->add_flag("--json", options->json, "Print JSON");
-  command->callback([options, &session] {
-    session.run = [options, &session] { return run_bench(*options, session.common); };
-  });
+      .add_option("--blender", options->blender,
+                  "Blender that --suite render and engines measure, instead of the one on PATH")
+      .type_name("PATH");
+  command.add_option("--only", options->only, "Group of rows that --suite truth measures, instead of all")
+      .one_of(thermal::truth_groups())
+      .type_name("GROUP");
+  command.add_flag("--json", options->json, "Print JSON");
+  command.runs([options](const CommonOptions& common) { return run_bench(*options, common); });
 }
 
 }  // namespace veldt

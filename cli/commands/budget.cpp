@@ -75,17 +75,15 @@ int run_budget(const BudgetArguments& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_budget(CLI::App& app, Session& session) {
-  CLI::App* command =
-      add_command(app, session, "budget", "Each physical term in mK against NETD: kept or dropped, and why");
-  command->footer("Example: veldt budget configs/demo.json --set season=winter");
+void add_budget(Parser& parser) {
+  Command command =
+      parser.add_command("budget", "Each physical term in mK against NETD: kept or dropped, and why");
+  command.footer("Example: veldt budget configs/demo.json --set season=winter");
   auto options = std::make_shared<BudgetArguments>();
-  command->add_option("config", options->config, "Config of a dataset, JSON")->required();
+  command.add_option("config", options->config, "Config of a dataset, JSON").required();
   add_settings(command, options->settings);
-  command->add_flag("--json", options->json, "Print JSON");
-  command->callback([options, &session] {
-    session.run = [options, &session] { return run_budget(*options, session.common); };
-  });
+  command.add_flag("--json", options->json, "Print JSON");
+  command.runs([options](const CommonOptions& common) { return run_budget(*options, common); });
 }
 
 }  // namespace veldt

@@ -157,22 +157,20 @@ int run_camera(const CameraArguments& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_camera(CLI::App& app, Session& session) {
-  CLI::App* command = add_command(
-      app, session, "camera", "Camera, height and angle of a drone's thermal photos, as parts of a config");
-  command->footer("Example: veldt camera DJI_0012_T.JPG");
+void add_camera(Parser& parser) {
+  Command command = parser.add_command(
+      "camera", "Camera, height and angle of a drone's thermal photos, as parts of a config");
+  command.footer("Example: veldt camera DJI_0012_T.JPG");
   auto options = std::make_shared<CameraArguments>();
-  command->add_option("photos", options->photos, "Thermal photos with EXIF and XMP, or folders of them")
-      ->type_name("PHOTO")
-      ->required();
+  command.add_option("photos", options->photos, "Thermal photos with EXIF and XMP, or folders of them")
+      .type_name("PHOTO")
+      .required();
   command
-      ->add_option(
+      .add_option(
           "--views", options->views,
           "Write height, look angle and weight of all photos, for a flight's views; never overwrites a file")
-      ->type_name("CSV");
-  command->callback([options, &session] {
-    session.run = [options, &session] { return run_camera(*options, session.common); };
-  });
+      .type_name("CSV");
+  command.runs([options](const CommonOptions& common) { return run_camera(*options, common); });
 }
 
 }  // namespace veldt

@@ -143,39 +143,35 @@ int run_cluster(const ClusterArguments& options) {
 
 }  // namespace
 
-void add_cluster(CLI::App& app, Session& session) {
-  CLI::App* command = add_command(app, session, "cluster",
-                                  "Write the jobs that make a planned dataset on Slurm or Kubernetes");
-  command->footer("Example: veldt cluster slurm plan --nodes 8 --cores 4 --out job.sh");
+void add_cluster(Parser& parser) {
+  Command command =
+      parser.add_command("cluster", "Write the jobs that make a planned dataset on Slurm or Kubernetes");
+  command.footer("Example: veldt cluster slurm plan --nodes 8 --cores 4 --out job.sh");
   auto options = std::make_shared<ClusterArguments>();
-  command->add_option("scheduler", options->scheduler, "What runs the jobs")
-      ->required()
-      ->check(CLI::IsMember({"slurm", "kubernetes"}));
-  command->add_option("plan", options->plan, "A plan that veldt plan wrote")->required()->type_name("PLAN");
-  command->add_option("--nodes", options->nodes, "Shards to run at the same time")
-      ->check(CLI::Range(1, 100'000))
-      ->capture_default_str();
-  command->add_option("--shards", options->shards, "Number of shards (default: four a node)")
-      ->check(CLI::Range(1, 1'000'000))
-      ->type_name("N");
-  command->add_option("--cores", options->cores, "Cores of a shard")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  command->add_option("--memory-gb", options->memory_gb, "Memory of a shard")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
+  command.add_option("scheduler", options->scheduler, "What runs the jobs")
+      .required()
+      .one_of({"slurm", "kubernetes"});
+  command.add_option("plan", options->plan, "A plan that veldt plan wrote").required().type_name("PLAN");
+  command.add_option("--nodes", options->nodes, "Shards to run at the same time")
+      .between(1, 100'000)
+      .shows_default();
+  command.add_option("--shards", options->shards, "Number of shards (default: four a node)")
+      .between(1, 1'000'000)
+      .type_name("N");
+  command.add_option("--cores", options->cores, "Cores of a shard").between(1, 1024).shows_default();
+  command.add_option("--memory-gb", options->memory_gb, "Memory of a shard").between(1, 4096).shows_default();
   command
-      ->add_option("--data", options->data,
-                   "Slurm: folder that all nodes share, for shards and dataset (default: that of the plan)")
-      ->type_name("DIR");
-  command->add_option("--image", options->image, "Kubernetes: image with veldt as its entry point")
-      ->type_name("NAME")
-      ->capture_default_str();
-  command->add_option("--claim", options->claim, "Kubernetes: claim of the volume with the plan")
-      ->type_name("NAME")
-      ->capture_default_str();
-  command->add_option("--out", options->out, "File to write, instead of standard output")->type_name("FILE");
-  command->callback([options, &session] { session.run = [options] { return run_cluster(*options); }; });
+      .add_option("--data", options->data,
+                  "Slurm: folder that all nodes share, for shards and dataset (default: that of the plan)")
+      .type_name("DIR");
+  command.add_option("--image", options->image, "Kubernetes: image with veldt as its entry point")
+      .type_name("NAME")
+      .shows_default();
+  command.add_option("--claim", options->claim, "Kubernetes: claim of the volume with the plan")
+      .type_name("NAME")
+      .shows_default();
+  command.add_option("--out", options->out, "File to write, instead of standard output").type_name("FILE");
+  command.runs([options](const CommonOptions& /*common*/) { return run_cluster(*options); });
 }
 
 }  // namespace veldt

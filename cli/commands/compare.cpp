@@ -202,22 +202,22 @@ void check_page(const thermal::Path& file) {
 }
 
 /// Adds --PREFIXkelvin-per-count and --PREFIXunit, which require `kelvin`.
-void add_scale(CLI::App& command, CLI::Option* kelvin, thermal::StoredScale& scale,
+void add_scale(Command& command, const Option& kelvin, thermal::StoredScale& scale,
                const std::array<const char*, 2>& help) {
   command.add_option(scale.prefix + "kelvin-per-count", scale.kelvin_per_count, help[0])
-      ->needs(kelvin)
-      ->check(CLI::PositiveNumber)
-      ->type_name("KELVIN");
+      .needs(kelvin)
+      .positive()
+      .type_name("KELVIN");
   command
-      .add_option_function<std::string>(
+      .add_option(
           scale.prefix + "unit",
           [&scale](const std::string& name) {
             scale.unit =
                 name == "celsius" ? thermal::TemperatureUnit::celsius : thermal::TemperatureUnit::kelvin;
           },
           help[1])
-      ->needs(kelvin)
-      ->check(CLI::IsMember({"kelvin", "celsius"}));
+      .needs(kelvin)
+      .one_of({"kelvin", "celsius"});
 }
 
 bool print_rejected(const thermal::SetFigures& set) {
@@ -242,11 +242,10 @@ int run_compare(const CompareArguments& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, Session& session) {
-  CLI::App* command =
-      add_command(app, session, "compare",
-                  "How far frames are from real ones: spectra, grey levels, edges, noise, targets");
-  command->footer(
+void add_compare(Parser& parser) {
+  Command command = parser.add_command(
+      "compare", "How far frames are from real ones: spectra, grey levels, edges, noise, targets");
+  command.footer(
       "Each source is a Veldt dataset (its ir8), or a folder of grey pictures of 8 or 16 bits (.png, .jpg,\n"
       ".jpeg, .tif, .tiff) with labels of COCO. Differences are put beside those between random halves of\n"
       "the real frames; a measure within twice those is marked. A classifier's AUC says how well frames,\n"
@@ -254,40 +253,38 @@ void add_compare(CLI::App& app, Session& session) {
       "Frames may have different sizes: each is measured as it is, and power is scaled to 640 x 512 px.\n"
       "Example: veldt compare real_frames my_dataset --box-style drawn --html comparison.html");
   auto options = std::make_shared<CompareArguments>();
-  command->add_option("real", options->real, "Real frames")->required();
-  command->add_option("dataset", options->dataset, "Frames to compare with them")->required();
+  command.add_option("real", options->real, "Real frames").required();
+  command.add_option("dataset", options->dataset, "Frames to compare with them").required();
   command
-      ->add_option("--real-labels", options->real_labels,
-                   "Labels of a folder of real frames; by default annotations.json in it or in its parent")
-      ->type_name("FILE");
-  command->add_option("--labels", options->labels, "The same of the other frames")->type_name("FILE");
+      .add_option("--real-labels", options->real_labels,
+                  "Labels of a folder of real frames; by default annotations.json in it or in its parent")
+      .type_name("FILE");
+  command.add_option("--labels", options->labels, "The same of the other frames").type_name("FILE");
   command
-      ->add_option("--real-names", options->real_names,
-                   "What names of real frames say, such as \"{_}_{altitude_m}_{look_angle_deg}_{_}\"")
-      ->type_name("PATTERN");
-  command->add_option("--names", options->names, "The same of the other frames")->type_name("PATTERN");
-  command->add_option("--category", options->category, "Category of the targets (default: people)")
-      ->type_name("NAME");
-  add_box_style(*command, options->boxes,
+      .add_option("--real-names", options->real_names,
+                  "What names of real frames say, such as \"{_}_{altitude_m}_{look_angle_deg}_{_}\"")
+      .type_name("PATTERN");
+  command.add_option("--names", options->names, "The same of the other frames").type_name("PATTERN");
+  command.add_option("--category", options->category, "Category of the targets (default: people)")
+      .type_name("NAME");
+  add_box_style(command, options->boxes,
                 "Boxes of DATASET around visible pixels, or with the margin that people leave, as in REAL");
-  CLI::Option* kelvin = command->add_flag(
+  const Option kelvin = command.add_flag(
       "--kelvin", options->kelvin,
       "Frames are temperatures: ir16 of a dataset, TIFFs of floats or of counts with a scale, 16-bit PNGs");
-  add_scale(*command, kelvin, options->real_scale,
+  add_scale(command, kelvin, options->real_scale,
             {"Scale of a folder's 16-bit real frames; by default their tags say it",
              "Unit of a folder's real frames; by default their tags say it, or it is kelvin"});
-  add_scale(*command, kelvin, options->scale,
+  add_scale(command, kelvin, options->scale,
             {"The same scale of the other frames", "The same unit of the other frames"});
-  command->add_option("--frames", options->frames, "Most frames of each source, evenly spaced")
-      ->capture_default_str();
+  command.add_option("--frames", options->frames, "Most frames of each source, evenly spaced")
+      .shows_default();
   command
-      ->add_option("--html", options->html,
-                   "Write a page with charts, frames and crops of targets; needs no network")
-      ->type_name("FILE");
-  command->add_flag("--json", options->json, "Print JSON, with the figures of each frame and target");
-  command->callback([options, &session] {
-    session.run = [options, &session] { return run_compare(*options, session.common); };
-  });
+      .add_option("--html", options->html,
+                  "Write a page with charts, frames and crops of targets; needs no network")
+      .type_name("FILE");
+  command.add_flag("--json", options->json, "Print JSON, with the figures of each frame and target");
+  command.runs([options](const CommonOptions& common) { return run_compare(*options, common); });
 }
 
 }  // namespace veldt

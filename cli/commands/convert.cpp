@@ -85,40 +85,38 @@ int run_convert(const ConvertArguments& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_convert(CLI::App& app, Session& session) {
-  CLI::App* command = add_command(app, session, "convert", "Turn rendered passes into frames and labels");
-  command->footer(
+void add_convert(Parser& parser) {
+  Command command = parser.add_command("convert", "Turn rendered passes into frames and labels");
+  command.footer(
       "The passes may come from any renderer that shows which object each pixel belongs to; veldt inspect\n"
       "says what their manifest lacks. A frame that cannot be converted is named and left out, and the\n"
       "exit code is 3.\n"
       "Example: veldt convert passes --out my_dataset --set sensor.model=physical season=summer");
   auto options = std::make_shared<ConvertArguments>();
   command
-      ->add_option("passes", options->passes,
-                   "Passes, one clip per folder: folders with a manifest.json, files, or quoted "
-                   "patterns such as \"r/f_####.exr\"")
-      ->required();
-  command->add_option("--out", options->out, "Folder of the dataset")->required()->type_name("DIR");
-  command->add_option("--manifest", options->manifest, "Manifest to use instead of the folder's")
-      ->type_name("FILE");
-  command->add_option("--config", options->config, "Config to take season, seed and sensor from")
-      ->type_name("FILE");
+      .add_option("passes", options->passes,
+                  "Passes, one clip per folder: folders with a manifest.json, files, or quoted "
+                  "patterns such as \"r/f_####.exr\"")
+      .required();
+  command.add_option("--out", options->out, "Folder of the dataset").required().type_name("DIR");
+  command.add_option("--manifest", options->manifest, "Manifest to use instead of the folder's")
+      .type_name("FILE");
+  command.add_option("--config", options->config, "Config to take season, seed and sensor from")
+      .type_name("FILE");
   command
-      ->add_option("--variants", options->variants,
-                   "List of changes to the config; each makes a dataset in a folder of its name, and passes "
-                   "are read once")
-      ->type_name("FILE");
+      .add_option("--variants", options->variants,
+                  "List of changes to the config; each makes a dataset in a folder of its name, and passes "
+                  "are read once")
+      .type_name("FILE");
   add_settings(command, options->settings);
   add_max_megapixels(command, options->max_megapixels);
   add_max_unusable(command, options->max_unusable_share);
-  command->add_flag("--strict", options->strict,
-                    "Stop at the first bad frame instead of reporting it and skipping it");
-  command->add_flag(
+  command.add_flag("--strict", options->strict,
+                   "Stop at the first bad frame instead of reporting it and skipping it");
+  command.add_flag(
       "--dry-run", options->dry_run,
       "Check the request and the manifests, and print what would be made, without writing anything");
-  command->callback([options, &session] {
-    session.run = [options, &session] { return run_convert(*options, session.common); };
-  });
+  command.runs([options](const CommonOptions& common) { return run_convert(*options, common); });
 }
 
 }  // namespace veldt

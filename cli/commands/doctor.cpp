@@ -113,13 +113,13 @@ int run_doctor(bool json) {
 
 }  // namespace
 
-void add_doctor(CLI::App& app, Session& session) {
-  CLI::App* command = add_command(app, session, "doctor",
-                                  "What is installed, which versions, what is missing and how to get it");
-  command->footer("Example: veldt doctor --json");
+void add_doctor(Parser& parser) {
+  Command command =
+      parser.add_command("doctor", "What is installed, which versions, what is missing and how to get it");
+  command.footer("Example: veldt doctor --json");
   auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "Print JSON");
-  command->callback([json, &session] { session.run = [json] { return run_doctor(*json); }; });
+  command.add_flag("--json", *json, "Print JSON");
+  command.runs([json](const CommonOptions& /*common*/) { return run_doctor(*json); });
 }
 
 }  // namespace veldt

@@ -208,10 +208,10 @@ int run_evaluate(const EvaluateArguments& options) {
 
 }  // namespace
 
-void add_evaluate(CLI::App& app, Session& session) {
-  CLI::App* command = add_command(app, session, "evaluate",
-                                  "Precision, recall and average precision of a detector's results");
-  command->footer(
+void add_evaluate(Parser& parser) {
+  Command command =
+      parser.add_command("evaluate", "Precision, recall and average precision of a detector's results");
+  command.footer(
       "Precision and recall are reported by clip, category and size class. The size class of a target\n"
       "is that of its track's mean box (below 200 px small, above 2000 px large); that of a detection\n"
       "without a target is that of its own box.\n"
@@ -219,21 +219,21 @@ void add_evaluate(CLI::App& app, Session& session) {
       "as found nor as missed; detections that match them are not counted.\n"
       "Example: veldt evaluate --truth my_dataset --detections results.json");
   auto options = std::make_shared<EvaluateArguments>();
-  command->add_option("--truth", options->truth, "Labels: a dataset, a BIRDSAI folder or a COCO file")
-      ->required();
+  command.add_option("--truth", options->truth, "Labels: a dataset, a BIRDSAI folder or a COCO file")
+      .required();
   command
-      ->add_option("--detections", options->detections,
-                   "Detections: COCO results (.json), Ultralytics' too, or a folder of YOLO results "
-                   "(VIDEO_PICTURE.txt)")
-      ->required();
-  command->add_option("--iou", options->evaluate.iou, "Lowest IoU at which a detection matches a target")
-      ->capture_default_str();
-  command->add_option("--score", options->evaluate.score, "Lowest score of the detections to count")
-      ->capture_default_str();
-  command->add_flag("--count-ignored", options->evaluate.count_ignored,
-                    "Count targets that are marked as ignored like any others, as pycocotools does");
-  command->add_flag("--json", options->json, "Print JSON, with each clip's categories too");
-  command->callback([options, &session] { session.run = [options] { return run_evaluate(*options); }; });
+      .add_option("--detections", options->detections,
+                  "Detections: COCO results (.json), Ultralytics' too, or a folder of YOLO results "
+                  "(VIDEO_PICTURE.txt)")
+      .required();
+  command.add_option("--iou", options->evaluate.iou, "Lowest IoU at which a detection matches a target")
+      .shows_default();
+  command.add_option("--score", options->evaluate.score, "Lowest score of the detections to count")
+      .shows_default();
+  command.add_flag("--count-ignored", options->evaluate.count_ignored,
+                   "Count targets that are marked as ignored like any others, as pycocotools does");
+  command.add_flag("--json", options->json, "Print JSON, with each clip's categories too");
+  command.runs([options](const CommonOptions& /*common*/) { return run_evaluate(*options); });
 }
 
 }  // namespace veldt

@@ -178,91 +178,85 @@ int run_export(const ExportArguments& options, const CommonOptions& common) {
 }
 
 /// Adds options for pictures and masks.
-void add_picture_options(CLI::App& command, ExportArguments& options) {
+void add_picture_options(Command& command, ExportArguments& options) {
   command
       .add_option("--link", options.link, "How to place pictures; copies where the file system cannot link")
-      ->check(CLI::IsMember({"hard", "symlink", "copy"}))
-      ->default_str("hard");
+      .one_of({"hard", "symlink", "copy"})
+      .shows_default("hard");
   command
       .add_option("--images", options.images,
                   "8-bit pictures after gain control, or 16-bit pictures in kelvin")
-      ->check(CLI::IsMember({"ir8", "ir16"}))
-      ->default_str("ir8");
+      .one_of({"ir8", "ir16"})
+      .shows_default("ir8");
   command
       .add_option("--segmentation", options.segmentation,
                   "Masks of --format coco as run lengths or polygons (default: as they are); polygon with "
                   "--format yolo "
                   "writes outlines instead of boxes")
-      ->check(CLI::IsMember({"rle", "polygon"}));
+      .one_of({"rle", "polygon"});
   command
       .add_option("--tiff-type", options.tiff_type,
                   "Pixels of --format tiff: kelvin, or counts with their scale in the tags")
-      ->check(CLI::IsMember({"float32", "uint16"}))
-      ->default_str("float32");
+      .one_of({"float32", "uint16"})
+      .shows_default("float32");
   command
       .add_option(
           "--origin", options.what.origin,
           "Where --format tiff puts the scene's (0, 0) on Earth (WGS 84), e.g. -19.3,23.1; by default 23 deg "
           "east, on the latitude and at the height of the dataset's weather")
-      ->type_name("LAT,LON[,HEIGHT]");
+      .type_name("LAT,LON[,HEIGHT]");
   add_box_style(command, options.what.boxes,
                 "Boxes around visible pixels, or with the margin of 1 to 2 px that people leave");
-  CLI::Option* like =
+  const Option like =
       command
           .add_option("--like", options.like,
                       "Drawn boxes as people drew those of a set: hit_uav, birdsai, or labels of your own, "
                       "of which the warm target's share of each box is measured")
-          ->type_name("STYLE|LABELS");
+          .type_name("STYLE|LABELS");
   command
       .add_option("--like-frames", options.like_frames,
                   "Folder of these labels' pictures, if they are not beside the labels")
-      ->needs(like)
-      ->type_name("DIR");
+      .needs(like)
+      .type_name("DIR");
 }
 
 }  // namespace
 
-void add_export(CLI::App& app, Session& session) {
-  CLI::App* command = add_command(
-      app, session, "export",
+void add_export(Parser& parser) {
+  Command command = parser.add_command(
+      "export",
       "Write a dataset as other programs read it: COCO, YOLO, MOTChallenge, BIRDSAI, WebDataset, TIFF");
-  command->footer(
+  command.footer(
       "Splits are made by clip, never by frame.\n"
       "Example: veldt export my_dataset --format yolo --out yolo --split train:0.8,val:0.2");
   auto options = std::make_shared<ExportArguments>();
+  command.add_option("dataset", options->source, "A dataset, a BIRDSAI folder or a COCO file; never modified")
+      .required()
+      .type_name("DATASET");
+  command.add_option("--format", options->format, "Layout and files to write")
+      .required()
+      .one_of({"coco", "yolo", "mot", "birdsai", "webdataset", "tiff"});
+  command.add_option("--out", options->out, "Folder of the export, empty or new").required().type_name("DIR");
+  add_picture_options(command, *options);
+  const Option split = command
+                           .add_option("--split", options->split,
+                                       "Split by whole clips, stratified by category, e.g. train:0.8,val:0.2")
+                           .type_name("NAME:SHARE,…");
+  command.add_option("--seed", options->what.seed, "Seed of the splits; by default the dataset's, or 1")
+      .needs(split);
+  command.add_option("--selection", options->selection, "Export only the frames that veldt balance selected")
+      .type_name("FILE");
   command
-      ->add_option("dataset", options->source, "A dataset, a BIRDSAI folder or a COCO file; never modified")
-      ->required()
-      ->type_name("DATASET");
-  command->add_option("--format", options->format, "Layout and files to write")
-      ->required()
-      ->check(CLI::IsMember({"coco", "yolo", "mot", "birdsai", "webdataset", "tiff"}));
-  command->add_option("--out", options->out, "Folder of the export, empty or new")
-      ->required()
-      ->type_name("DIR");
-  add_picture_options(*command, *options);
-  CLI::Option* split =
-      command
-          ->add_option("--split", options->split,
-                       "Split by whole clips, stratified by category, e.g. train:0.8,val:0.2")
-          ->type_name("NAME:SHARE,…");
-  command->add_option("--seed", options->what.seed, "Seed of the splits; by default the dataset's, or 1")
-      ->needs(split);
-  command->add_option("--selection", options->selection, "Export only the frames that veldt balance selected")
-      ->type_name("FILE");
+      .add_option("--samples-per-shard", options->what.samples_per_shard,
+                  "Most pictures in a tar file of --format webdataset")
+      .shows_default("1000");
   command
-      ->add_option("--samples-per-shard", options->what.samples_per_shard,
-                   "Most pictures in a tar file of --format webdataset")
-      ->default_str("1000");
-  command
-      ->add_option("--scratch", options->scratch,
-                   "Make each tar file of --format webdataset here, then copy it to --out, which may be an "
-                   "object store")
-      ->type_name("DIR");
-  command->add_flag("--unfinished", options->what.unfinished_too, "Accept a dataset with missing clips");
-  command->callback([options, &session] {
-    session.run = [options, &session] { return run_export(*options, session.common); };
-  });
+      .add_option("--scratch", options->scratch,
+                  "Make each tar file of --format webdataset here, then copy it to --out, which may be an "
+                  "object store")
+      .type_name("DIR");
+  command.add_flag("--unfinished", options->what.unfinished_too, "Accept a dataset with missing clips");
+  command.runs([options](const CommonOptions& common) { return run_export(*options, common); });
 }
 
 }  // namespace veldt

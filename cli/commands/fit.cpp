@@ -173,11 +173,10 @@ int run_fit(const FitArguments& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_fit(CLI::App& app, Session& session) {
-  CLI::App* command =
-      add_command(app, session, "fit",
-                  "Fit a config's gain, optics, noise, sharpening, link, codec and lens to real frames");
-  command->footer(
+void add_fit(Parser& parser) {
+  Command command = parser.add_command(
+      "fit", "Fit a config's gain, optics, noise, sharpening, link, codec and lens to real frames");
+  command.footer(
       "A few clips of the config are rendered once, then exposed with other settings in each trial, until\n"
       "the measures of `veldt compare` differ from those of the real frames as little as may be. Half of\n"
       "the real frames are fitted, the others are held out: a table says how well each measure alone, and\n"
@@ -185,33 +184,26 @@ void add_fit(CLI::App& app, Session& session) {
       "needs labels; all else does not.\n"
       "Example: veldt fit real_frames --config my.json --out fitted.json");
   auto options = std::make_shared<FitArguments>();
-  command->add_option("real", options->real, "Real frames: a folder of grey pictures, or a Veldt dataset")
-      ->required();
-  command->add_option("--config", options->config, "Config to begin with, JSON")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--out", options->out, "The config with what was fitted")
-      ->required()
-      ->type_name("FILE");
+  command.add_option("real", options->real, "Real frames: a folder of grey pictures, or a Veldt dataset")
+      .required();
+  command.add_option("--config", options->config, "Config to begin with, JSON").required().type_name("FILE");
+  command.add_option("--out", options->out, "The config with what was fitted").required().type_name("FILE");
   command
-      ->add_option(
+      .add_option(
           "--real-labels", options->real_labels,
           "COCO labels of a folder of real frames; by default annotations.json in it or in its parent")
-      ->type_name("FILE");
-  command->add_option("--category", options->category, "Category of the targets (default: people)")
-      ->type_name("NAME");
-  command->add_option("--clips", options->request.clips, "Most clips of the config, two frames of each")
-      ->capture_default_str();
-  command->add_option("--frames", options->request.most_frames, "Most real frames, evenly spaced")
-      ->capture_default_str();
-  command->add_option("--trials", options->request.trials, "How many settings to try")->capture_default_str();
-  command->add_option("--seed", options->request.seed, "Which real frames are held out")
-      ->capture_default_str();
+      .type_name("FILE");
+  command.add_option("--category", options->category, "Category of the targets (default: people)")
+      .type_name("NAME");
+  command.add_option("--clips", options->request.clips, "Most clips of the config, two frames of each")
+      .shows_default();
+  command.add_option("--frames", options->request.most_frames, "Most real frames, evenly spaced")
+      .shows_default();
+  command.add_option("--trials", options->request.trials, "How many settings to try").shows_default();
+  command.add_option("--seed", options->request.seed, "Which real frames are held out").shows_default();
   add_settings(command, options->settings);
-  command->add_flag("--json", options->json, "Print JSON");
-  command->callback([options, &session] {
-    session.run = [options, &session] { return run_fit(*options, session.common); };
-  });
+  command.add_flag("--json", options->json, "Print JSON");
+  command.runs([options](const CommonOptions& common) { return run_fit(*options, common); });
 }
 
 }  // namespace veldt

@@ -234,63 +234,58 @@ int run_generate(const GenerateArguments& options, const CommonOptions& common, 
   return summarise(outcome, options.out, common, "made", options.max_unusable_share);
 }
 
-void add(CLI::App& app, Session& session, const std::string& description, const Work& work) {
-  CLI::App* command = add_command(app, session, work.command, description);
-  command->footer(work.footer);
+void add(Parser& parser, const std::string& description, const Work& work) {
+  Command command = parser.add_command(work.command, description);
+  command.footer(work.footer);
   auto options = std::make_shared<GenerateArguments>();
-  command->add_option("config", options->config, "Config of the dataset, JSON");
+  command.add_option("config", options->config, "Config of the dataset, JSON");
   command
-      ->add_option(
+      .add_option(
           "--plan", options->plan,
           "A plan that veldt plan wrote, instead of a config: nothing is planned, so that any machine "
           "can make its part at once")
-      ->type_name("DIR");
-  command->add_option("--out", options->out, "Folder of the dataset")->required()->type_name("DIR");
-  command->add_option("--clips", options->clips, "Only these clips")
-      ->delimiter(',')
-      ->allow_extra_args(false)  // otherwise a CONFIG that follows would be parsed as a clip
-      ->type_name("ID,…");
+      .type_name("DIR");
+  command.add_option("--out", options->out, "Folder of the dataset").required().type_name("DIR");
+  command.add_option("--clips", options->clips, "Only these clips").comma_separated().type_name("ID,…");
   command
-      ->add_option(
+      .add_option(
           "--shard", options->shard,
           "Only the I-th of N shares of the clips, which cost nearly the same, I from 0 to N - 1; auto: by "
           "the job of a Slurm array, a Kubernetes Indexed Job or a parallel GitLab job")
-      ->type_name("I/N|auto");
+      .type_name("I/N|auto");
   command
-      ->add_option("--jobs", options->jobs,
-                   "Blender processes to run at once, one clip each; they share --threads, and each holds "
-                   "the place in memory (embree uses all threads anyway)")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
+      .add_option("--jobs", options->jobs,
+                  "Blender processes to run at once, one clip each; they share --threads, and each holds "
+                  "the place in memory (embree uses all threads anyway)")
+      .between(1, 64)
+      .shows_default();
   add_engine(command, options->engine);
-  command->add_option("--blender", options->blender, "Blender to use instead of the one on PATH")
-      ->type_name("PATH");
+  command.add_option("--blender", options->blender, "Blender to use instead of the one on PATH")
+      .type_name("PATH");
   if (work.command == "generate") {
     command
-        ->add_option(
+        .add_option(
             "--scratch", options->scratch,
             "Make clips in this folder, of this run alone, such as a disk of the node, and copy each to "
             "--out when complete, which may be a mounted object store")
-        ->type_name("DIR");
-    command->add_flag("--keep-passes", options->keep_passes,
-                      "Keep the rendered EXR passes, for veldt convert");
+        .type_name("DIR");
+    command.add_flag("--keep-passes", options->keep_passes,
+                     "Keep the rendered EXR passes, for veldt convert");
     add_max_unusable(command, options->max_unusable_share);
   }
   if (work.command == "render") {
-    command->add_flag("--preview", options->preview,
-                      "Render a map of the place and colour stills to look at, instead of passes");
+    command.add_flag("--preview", options->preview,
+                     "Render a map of the place and colour stills to look at, instead of passes");
   }
   add_settings(command, options->settings);
-  command->add_flag("--dry-run", options->dry_run, "Check the config and print what would be made");
-  command->callback([options, &session, work] {
-    session.run = [options, &session, work] { return run_generate(*options, session.common, work); };
-  });
+  command.add_flag("--dry-run", options->dry_run, "Check the config and print what would be made");
+  command.runs([options, work](const CommonOptions& common) { return run_generate(*options, common, work); });
 }
 
 }  // namespace
 
-void add_generate(CLI::App& app, Session& session) {
-  add(app, session, "Make a dataset from a config; resumes where an earlier run stopped",
+void add_generate(Parser& parser) {
+  add(parser, "Make a dataset from a config; resumes where an earlier run stopped",
       {.command = "generate",
        .footer =
            "If a run is interrupted, the same command continues it, and the pixels are the same as without\n"
@@ -302,8 +297,8 @@ void add_generate(CLI::App& app, Session& session) {
        .run = thermal::generate});
 }
 
-void add_render(CLI::App& app, Session& session) {
-  add(app, session, "Render passes and manifests only",
+void add_render(Parser& parser) {
+  add(parser, "Render passes and manifests only",
       {.command = "render",
        .footer = "Example: veldt render configs/savanna.json --out look --preview",
        .check = thermal::check_same_passes,

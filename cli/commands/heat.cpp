@@ -360,21 +360,19 @@ int run_heat(const HeatArguments& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_heat(CLI::App& app, Session& session) {
-  CLI::App* command = add_command(
-      app, session, "heat", "Temperatures of every kind of surface over the day, and what they depend on");
-  command->footer("Example: veldt heat configs/demo.json --surfaces soil,grass,water,acacia --plot day.svg");
+void add_heat(Parser& parser) {
+  Command command = parser.add_command(
+      "heat", "Temperatures of every kind of surface over the day, and what they depend on");
+  command.footer("Example: veldt heat configs/demo.json --surfaces soil,grass,water,acacia --plot day.svg");
   auto options = std::make_shared<HeatArguments>();
-  command->add_option("config", options->config, "Config of a dataset, JSON")->required();
+  command.add_option("config", options->config, "Config of a dataset, JSON").required();
   add_settings(command, options->settings);
-  command->add_option("--surfaces", options->surfaces, "Surfaces to show; all if not given")
-      ->delimiter(',')
-      ->type_name("NAME,…");
-  command->add_option("--plot", options->plot, "Write the day as a chart, SVG");
-  command->add_flag("--json", options->json, "Print JSON");
-  command->callback([options, &session] {
-    session.run = [options, &session] { return run_heat(*options, session.common); };
-  });
+  command.add_option("--surfaces", options->surfaces, "Surfaces to show; all if not given")
+      .comma_separated()
+      .type_name("NAME,…");
+  command.add_option("--plot", options->plot, "Write the day as a chart, SVG");
+  command.add_flag("--json", options->json, "Print JSON");
+  command.runs([options](const CommonOptions& common) { return run_heat(*options, common); });
 }
 
 }  // namespace veldt

@@ -285,31 +285,28 @@ int run_inspect(const InspectArguments& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_inspect(CLI::App& app, Session& session) {
-  CLI::App* command =
-      add_command(app, session, "inspect", "What is in these passes, and what convert would do with them");
-  command->footer("Example: veldt inspect passes --starter-manifest passes/manifest.json");
+void add_inspect(Parser& parser) {
+  Command command =
+      parser.add_command("inspect", "What is in these passes, and what convert would do with them");
+  command.footer("Example: veldt inspect passes --starter-manifest passes/manifest.json");
   auto options = std::make_shared<InspectArguments>();
   command
-      ->add_option(
-          "passes", options->passes,
-          "A folder of passes; or files, or a quoted pattern such as \"r/f_####.exr\", of one folder")
-      ->required();
-  CLI::Option* manifest =
-      command->add_option("--manifest", options->manifest, "Manifest to use instead of the folder's")
-          ->type_name("FILE");
-  command->add_option("--layer", options->layer, "Layer of an EXR file that has several")->type_name("NAME");
-  command->add_flag("--all-frames", options->all_frames, "Inspect every frame, not only the first");
+      .add_option("passes", options->passes,
+                  "A folder of passes; or files, or a quoted pattern such as \"r/f_####.exr\", of one folder")
+      .required();
+  const Option manifest =
+      command.add_option("--manifest", options->manifest, "Manifest to use instead of the folder's")
+          .type_name("FILE");
+  command.add_option("--layer", options->layer, "Layer of an EXR file that has several").type_name("NAME");
+  command.add_flag("--all-frames", options->all_frames, "Inspect every frame, not only the first");
   command
-      ->add_option("--starter-manifest", options->starter,
-                   "Inspect every frame and write a manifest to fill in; never overwrites a file")
-      ->type_name("FILE")
-      ->excludes(manifest);
+      .add_option("--starter-manifest", options->starter,
+                  "Inspect every frame and write a manifest to fill in; never overwrites a file")
+      .type_name("FILE")
+      .excludes(manifest);
   add_max_megapixels(command, options->max_megapixels);
-  command->add_flag("--json", options->json, "Print JSON");
-  command->callback([options, &session] {
-    session.run = [options, &session] { return run_inspect(*options, session.common); };
-  });
+  command.add_flag("--json", options->json, "Print JSON");
+  command.runs([options](const CommonOptions& common) { return run_inspect(*options, common); });
 }
 
 }  // namespace veldt

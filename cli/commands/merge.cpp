@@ -77,33 +77,31 @@ int run_merge(const MergeArguments& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_merge(CLI::App& app, Session& session) {
-  CLI::App* command = add_command(app, session, "merge", "Join datasets made as shards of one config");
-  command->footer(
+void add_merge(Parser& parser) {
+  Command command = parser.add_command("merge", "Join datasets made as shards of one config");
+  command.footer(
       "The result is the same, bit for bit, as that of one run. With --plan and --shards, the shards to\n"
       "run again are listed if clips are missing.\n"
       "Example: veldt merge --plan plan --shards 8 shards/* --out my_dataset");
   auto options = std::make_shared<MergeArguments>();
   command
-      ->add_option("dirs", options->sources, "Datasets, each with some of the config's clips; never modified")
-      ->required()
-      ->type_name("DIR…");
-  command->add_option("--out", options->out, "Folder of the joined dataset")->required()->type_name("DIR");
+      .add_option("dirs", options->sources, "Datasets, each with some of the config's clips; never modified")
+      .required()
+      .type_name("DIR…");
+  command.add_option("--out", options->out, "Folder of the joined dataset").required().type_name("DIR");
   command
-      ->add_option(
+      .add_option(
           "--plan", options->plan,
           "The plan that the shards were made from: they must have its config. Folders of DIR without a "
           "dataset are then named and left out")
-      ->type_name("DIR");
-  command->add_option("--shards", options->shards, "Number N of shards I/N: those to make again are listed")
-      ->check(CLI::Range(1, 1'000'000))
-      ->type_name("N");
-  command->add_option("--link", options->link, "Hard links where the file system supports them, or copies")
-      ->check(CLI::IsMember({"hard", "copy"}))
-      ->capture_default_str();
-  command->callback([options, &session] {
-    session.run = [options, &session] { return run_merge(*options, session.common); };
-  });
+      .type_name("DIR");
+  command.add_option("--shards", options->shards, "Number N of shards I/N: those to make again are listed")
+      .between(1, 1'000'000)
+      .type_name("N");
+  command.add_option("--link", options->link, "Hard links where the file system supports them, or copies")
+      .one_of({"hard", "copy"})
+      .shows_default();
+  command.runs([options](const CommonOptions& common) { return run_merge(*options, common); });
 }
 
 }  // namespace veldt

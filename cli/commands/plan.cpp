@@ -45,23 +45,20 @@ int run_plan(const PlanArguments& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_plan(CLI::App& app, Session& session) {
-  CLI::App* command =
-      add_command(app, session, "plan", "Plan a dataset and bake its scene, without a renderer");
-  command->footer(
+void add_plan(Parser& parser) {
+  Command command = parser.add_command("plan", "Plan a dataset and bake its scene, without a renderer");
+  command.footer(
       "A plan has all that any machine needs to make its part of a dataset with veldt generate --plan: the\n"
       "config with its defaults, the scene and all paths, with checksums.\n"
       "Example: veldt plan configs/savanna.json --out plan");
   auto options = std::make_shared<PlanArguments>();
-  command->add_option("config", options->config, "Config of a dataset, JSON")->required();
-  command->add_option("--out", options->out, "Folder of the plan")->required()->type_name("DIR");
+  command.add_option("config", options->config, "Config of a dataset, JSON").required();
+  command.add_option("--out", options->out, "Folder of the plan").required().type_name("DIR");
   add_engine(command, options->engine);
-  command->add_option("--blender", options->blender, "Blender that reads 3D models, if not the one on PATH")
-      ->type_name("PATH");
+  command.add_option("--blender", options->blender, "Blender that reads 3D models, if not the one on PATH")
+      .type_name("PATH");
   add_settings(command, options->settings);
-  command->callback([options, &session] {
-    session.run = [options, &session] { return run_plan(*options, session.common); };
-  });
+  command.runs([options](const CommonOptions& common) { return run_plan(*options, common); });
 }
 
 }  // namespace veldt

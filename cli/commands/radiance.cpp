@@ -144,41 +144,35 @@ int run_radiance(const RadianceArguments& options) {
 
 }  // namespace
 
-void add_radiance(CLI::App& app, Session& session) {
-  CLI::App* command = add_command(app, session, "radiance",
-                                  "In-band radiance of a temperature, or temperature of a radiance");
-  command->footer("Example: veldt radiance --temperature-k 290,300,310 --band-um 7.5:13.5");
+void add_radiance(Parser& parser) {
+  Command command =
+      parser.add_command("radiance", "In-band radiance of a temperature, or temperature of a radiance");
+  command.footer("Example: veldt radiance --temperature-k 290,300,310 --band-um 7.5:13.5");
   auto options = std::make_shared<RadianceArguments>();
-  auto* temperatures =
-      command->add_option("--temperature-k", options->temperatures_k, "Temperatures [K], from 0 to 1e6")
-          ->delimiter(',')
-          ->allow_extra_args(false)
-          ->type_name("T,…");
-  auto* radiances = command
-                        ->add_option("--radiance", options->radiances_w_m2_sr,
+  Option temperatures =
+      command.add_option("--temperature-k", options->temperatures_k, "Temperatures [K], from 0 to 1e6")
+          .comma_separated()
+          .type_name("T,…");
+  Option radiances = command
+                         .add_option("--radiance", options->radiances_w_m2_sr,
                                      "Radiances [W m^-2 sr^-1], from 0 to that of 1e6 K")
-                        ->delimiter(',')
-                        ->allow_extra_args(false)
-                        ->type_name("L,…");
-  temperatures->excludes(radiances);
-  auto* band =
-      command->add_option("--band-um", options->band_um, "Band with a flat response [um]")->type_name("A:B");
-  command->add_option("--response", options->response, "Response curve, CSV: wavelength_um,response")
-      ->type_name("CSV")
-      ->excludes(band);
-  command->add_option("--emissivity", options->emissivity, "Emissivity of the surface")
-      ->capture_default_str();
-  command->add_option("--method", options->method, "reference, or the table the frames are made with")
-      ->check(CLI::IsMember({"reference", "table"}))
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "Print JSON");
-  command->callback([options, &session] {
-    session.run = [options] {
-      if (options->temperatures_k.empty() && options->radiances_w_m2_sr.empty()) {
-        throw thermal::ConfigError("nothing asked; expected --temperature-k T,… or --radiance L,…");
-      }
-      return run_radiance(*options);
-    };
+                         .comma_separated()
+                         .type_name("L,…");
+  temperatures.excludes(radiances);
+  Option band =
+      command.add_option("--band-um", options->band_um, "Band with a flat response [um]").type_name("A:B");
+  command.add_option("--response", options->response, "Response curve, CSV: wavelength_um,response")
+      .type_name("CSV")
+      .excludes(band);
+  command.add_option("--emissivity", options->emissivity, "Emissivity of the surface").shows_default();
+  command.add_option("--method", options->method, "reference, or the table the frames are made with")
+      .one_of({"reference", "table"})
+      .shows_default();
+  command.add_flag("--json", options->json, "Print JSON");
+  command.runs([options](const CommonOptions& /*common*/) {
+    if (options->temperatures_k.empty() && options->radiances_w_m2_sr.empty())
+      throw thermal::ConfigError("nothing asked; expected --temperature-k T,… or --radiance L,…");
+    return run_radiance(*options);
   });
 }
 

@@ -35,20 +35,17 @@ int run_report(const ReportArguments& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_report(CLI::App& app, Session& session) {
-  CLI::App* command =
-      add_command(app, session, "report",
-                  "One HTML page about a dataset: pictures, plots, counts, provenance; needs no network");
-  command->footer("Example: veldt report my_dataset --out my_dataset.html");
+void add_report(Parser& parser) {
+  Command command = parser.add_command(
+      "report", "One HTML page about a dataset: pictures, plots, counts, provenance; needs no network");
+  command.footer("Example: veldt report my_dataset --out my_dataset.html");
   auto options = std::make_shared<ReportArguments>();
-  command->add_option("dataset", options->source, "A dataset, a BIRDSAI folder or a COCO file (.json)")
-      ->required();
-  command->add_option("--out", options->out, "File of the page; by default report.html in the dataset")
-      ->type_name("FILE");
-  command->add_flag("--unfinished", options->unfinished, "Accept a dataset with missing clips");
-  command->callback([options, &session] {
-    session.run = [options, &session] { return run_report(*options, session.common); };
-  });
+  command.add_option("dataset", options->source, "A dataset, a BIRDSAI folder or a COCO file (.json)")
+      .required();
+  command.add_option("--out", options->out, "File of the page; by default report.html in the dataset")
+      .type_name("FILE");
+  command.add_flag("--unfinished", options->unfinished, "Accept a dataset with missing clips");
+  command.runs([options](const CommonOptions& common) { return run_report(*options, common); });
 }
 
 }  // namespace veldt

@@ -100,11 +100,10 @@ int run_stream(const StreamArguments& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_stream(CLI::App& app, Session& session) {
-  CLI::App* command =
-      add_command(app, session, "stream",
-                  "Send what the cameras of a config see, live: video, and a line of JSON a frame");
-  command->footer(
+void add_stream(Parser& parser) {
+  Command command = parser.add_command(
+      "stream", "Send what the cameras of a config see, live: video, and a line of JSON a frame");
+  command.footer(
       "Frames that cannot be made in time are left out, and counted, as are frames and lines that a\n"
       "receiver misses, and clients beyond 16, which are closed at once; exit code 3 says that there were\n"
       "some.\n"
@@ -113,30 +112,27 @@ void add_stream(CLI::App& app, Session& session) {
       "Example: veldt stream configs/demo.json --video udp://127.0.0.1:5600 --labels tcp://127.0.0.1:5601 "
       "--set render.supersample=1");
   auto options = std::make_shared<StreamArguments>();
+  command.add_option("config", options->config, "Config of a dataset, JSON, or a plan with all actors' bones")
+      .required()
+      .type_name("CONFIG|PLAN");
   command
-      ->add_option("config", options->config, "Config of a dataset, JSON, or a plan with all actors' bones")
-      ->required()
-      ->type_name("CONFIG|PLAN");
+      .add_option("--video", options->video,
+                  "Where video goes: udp://HOST:PORT (MPEG-TS) or rtsp://HOST:PORT/PATH")
+      .required()
+      .type_name("URL");
   command
-      ->add_option("--video", options->video,
-                   "Where video goes: udp://HOST:PORT (MPEG-TS) or rtsp://HOST:PORT/PATH")
-      ->required()
-      ->type_name("URL");
-  command
-      ->add_option("--labels", options->labels,
-                   "Where lines go: tcp://HOST:PORT, a server for 16 clients, or udp://HOST:PORT")
-      ->type_name("URL");
-  command->add_option("--clips", options->clips, "Clips to send; all of them if not given")
-      ->delimiter(',')
-      ->type_name("ID,…");
-  command->add_option("--rate", options->rate_hz, "Frames a second, 0.1 to 240; each clip's own if not given")
-      ->type_name("HZ");
-  command->add_flag("--repeat", options->repeat, "Begin again after the last clip, until stopped");
-  command->add_flag("--allow-remote", options->allow_remote, "Accept addresses of other machines");
+      .add_option("--labels", options->labels,
+                  "Where lines go: tcp://HOST:PORT, a server for 16 clients, or udp://HOST:PORT")
+      .type_name("URL");
+  command.add_option("--clips", options->clips, "Clips to send; all of them if not given")
+      .comma_separated()
+      .type_name("ID,…");
+  command.add_option("--rate", options->rate_hz, "Frames a second, 0.1 to 240; each clip's own if not given")
+      .type_name("HZ");
+  command.add_flag("--repeat", options->repeat, "Begin again after the last clip, until stopped");
+  command.add_flag("--allow-remote", options->allow_remote, "Accept addresses of other machines");
   add_settings(command, options->settings);
-  command->callback([options, &session] {
-    session.run = [options, &session] { return run_stream(*options, session.common); };
-  });
+  command.runs([options](const CommonOptions& common) { return run_stream(*options, common); });
 }
 
 }  // namespace veldt

@@ -72,20 +72,17 @@ int validate_config(const ValidateArguments& options, const CommonOptions& commo
 
 }  // namespace
 
-void add_validate(CLI::App& app, Session& session) {
-  CLI::App* command =
-      add_command(app, session, "validate",
-                  "Check a config (schema and meaning) or a dataset (complete, every file unchanged)");
-  command->footer("Example: veldt validate configs/demo.json --set season=summer");
+void add_validate(Parser& parser) {
+  Command command = parser.add_command(
+      "validate", "Check a config (schema and meaning) or a dataset (complete, every file unchanged)");
+  command.footer("Example: veldt validate configs/demo.json --set season=summer");
   auto options = std::make_shared<ValidateArguments>();
-  command->add_option("what", options->what, "A config, or the folder of a dataset")->required();
+  command.add_option("what", options->what, "A config, or the folder of a dataset").required();
   add_settings(command, options->settings);
-  command->add_flag("--json", options->json, "Report as JSON");
-  command->callback([options, &session] {
-    session.run = [options, &session] {
-      return std::filesystem::is_directory(options->what) ? validate_dataset(*options, session.common)
-                                                          : validate_config(*options, session.common);
-    };
+  command.add_flag("--json", options->json, "Report as JSON");
+  command.runs([options](const CommonOptions& common) {
+    return std::filesystem::is_directory(options->what) ? validate_dataset(*options, common)
+                                                        : validate_config(*options, common);
   });
 }
 

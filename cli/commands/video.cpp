@@ -74,51 +74,49 @@ int run_video(const VideoArguments& options, bool frame_given, const CommonOptio
 
 }  // namespace
 
-void add_video(CLI::App& app, Session& session) {
-  CLI::App* command = add_command(
-      app, session, "video",
+void add_video(Parser& parser) {
+  Command command = parser.add_command(
+      "video",
       "A video to show: false colours, a scale in kelvin, boxes and tracks; several clips in a grid");
-  command->footer(
+  command.footer(
       "Example: veldt video my_dataset --out my_dataset.mp4 --palette ironbow --boxes --tracks --scale");
   auto options = std::make_shared<VideoArguments>();
-  command->add_option("dataset", options->source, "A dataset, or one clip's folder in it (DIR/clips/CLIP)")
-      ->required()
-      ->type_name("DATASET|CLIP");
+  command.add_option("dataset", options->source, "A dataset, or one clip's folder in it (DIR/clips/CLIP)")
+      .required()
+      .type_name("DATASET|CLIP");
   command
-      ->add_option("--out", options->out,
-                   "A video (.mp4), or a picture of one frame (.png, .jpg); a file of that name is replaced")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--clips", options->clips, "Clips to show, at most 16; all that are made if not given")
-      ->delimiter(',')
-      ->type_name("ID,…");
-  command->add_option("--palette", options->palette, "Colours from cold to hot")
-      ->type_name(fmt::format("NAME:{{{}}}", fmt::join(thermal::palette_names(), ",")))
-      ->capture_default_str();
-  command->add_flag("--boxes", options->boxes, "Draw labels: boxes, categories and track ids");
-  command->add_flag("--tracks", options->tracks, "Draw where targets were in the last 5 seconds");
-  command->add_flag("--scale", options->scale, "Draw a bar of apparent temperatures in kelvin");
+      .add_option("--out", options->out,
+                  "A video (.mp4), or a picture of one frame (.png, .jpg); a file of that name is replaced")
+      .required()
+      .type_name("FILE");
+  command.add_option("--clips", options->clips, "Clips to show, at most 16; all that are made if not given")
+      .comma_separated()
+      .type_name("ID,…");
+  command.add_option("--palette", options->palette, "Colours from cold to hot")
+      .type_name(fmt::format("NAME:{{{}}}", fmt::join(thermal::palette_names(), ",")))
+      .shows_default();
+  command.add_flag("--boxes", options->boxes, "Draw labels: boxes, categories and track ids");
+  command.add_flag("--tracks", options->tracks, "Draw where targets were in the last 5 seconds");
+  command.add_flag("--scale", options->scale, "Draw a bar of apparent temperatures in kelvin");
   command
-      ->add_option("--range", options->range,
-                   "Show these temperatures in K on a fixed scale, instead of the camera's gain control")
-      ->type_name("LO:HI");
+      .add_option("--range", options->range,
+                  "Show these temperatures in K on a fixed scale, instead of the camera's gain control")
+      .type_name("LO:HI");
   command
-      ->add_option("--side-by-side", options->beside,
-                   "Show the same clips of another dataset beside, on a scale of their own")
-      ->type_name("DATASET2");
-  CLI::Option* frame =
+      .add_option("--side-by-side", options->beside,
+                  "Show the same clips of another dataset beside, on a scale of their own")
+      .type_name("DATASET2");
+  const Option frame =
       command
-          ->add_option("--frame", options->frame, "Which frame a picture shows, from 0; else the middle one")
-          ->type_name("N");
+          .add_option("--frame", options->frame, "Which frame a picture shows, from 0; else the middle one")
+          .type_name("N");
   command
-      ->add_option("--width-px", options->width_px,
-                   "Width of the whole; 0: 1280 for one column of clips, else 1920")
-      ->check(CLI::Range(0, 8192))
-      ->capture_default_str();
-  command->callback([options, frame, &session] {
-    session.run = [options, given = frame->count() > 0, &session] {
-      return run_video(*options, given, session.common);
-    };
+      .add_option("--width-px", options->width_px,
+                  "Width of the whole; 0: 1280 for one column of clips, else 1920")
+      .between(0, 8192)
+      .shows_default();
+  command.runs([options, frame](const CommonOptions& common) {
+    return run_video(*options, frame.is_given(), common);
   });
 }
 

@@ -42,26 +42,25 @@ int run_view(const ViewArguments& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_view(CLI::App& app, Session& session) {
-  CLI::App* command = add_command(app, session, "view",
-                                  "A page to look through all frames: clips, palettes, boxes, tracks, kelvin "
-                                  "under the cursor; needs no server");
-  command->footer("Example: veldt view my_dataset --out look");
+void add_view(Parser& parser) {
+  Command command =
+      parser.add_command("view",
+                         "A page to look through all frames: clips, palettes, boxes, tracks, kelvin "
+                         "under the cursor; needs no server");
+  command.footer("Example: veldt view my_dataset --out look");
   auto options = std::make_shared<ViewArguments>();
-  command->add_option("dataset", options->source, "A dataset, or one clip's folder in it (DIR/clips/CLIP)")
-      ->required()
-      ->type_name("DATASET|CLIP");
+  command.add_option("dataset", options->source, "A dataset, or one clip's folder in it (DIR/clips/CLIP)")
+      .required()
+      .type_name("DATASET|CLIP");
   command
-      ->add_option("--out", options->out,
-                   "Folder of the page (index.html) and its data; an earlier page there is replaced")
-      ->required()
-      ->type_name("DIR");
-  command->add_option("--clips", options->clips, "Clips to show; all that are made if not given")
-      ->delimiter(',')
-      ->type_name("ID,…");
-  command->callback([options, &session] {
-    session.run = [options, &session] { return run_view(*options, session.common); };
-  });
+      .add_option("--out", options->out,
+                  "Folder of the page (index.html) and its data; an earlier page there is replaced")
+      .required()
+      .type_name("DIR");
+  command.add_option("--clips", options->clips, "Clips to show; all that are made if not given")
+      .comma_separated()
+      .type_name("ID,…");
+  command.runs([options](const CommonOptions& common) { return run_view(*options, common); });
 }
 
 }  // namespace veldt

@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace veldt {
 
@@ -34,7 +36,7 @@ struct ProgramText {
   std::vector<CommandText> commands;  ///< in the order that help shows them
 };
 
-/// Texts of a parser after add_commands().
+/// Texts of make_parser().app().
 [[nodiscard]] ProgramText read_texts(const CLI::App& app);
 
 /// Words for a list in bash, zsh and fish: "a b\ c". Blanks are the only special characters allowed in words.

@@ -211,10 +211,7 @@ void write_text(const thermal::Path& file, const std::string& text) {
 /// Writes manual pages and completions into a folder, in the subfolders of share/ that Debian's man, bash, zsh and fish
 /// use. Throws exceptions on failure.
 void write_manual(const char* share) {
-  CLI::App app;
-  Session session;
-  add_commands(app, session);
-  const ProgramText text = read_texts(app);
+  const ProgramText text = read_texts(make_parser()->app());
   const thermal::Path folder = share;
   const auto write_page = [&](const CommandText& command) {
     write_text(folder / "man/man1" / (page_name(text, command) + ".1"),

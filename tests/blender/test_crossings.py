@@ -9,7 +9,7 @@ from planner import assets
 from planner.geometry.rotations import heading_of
 from planner.land.road_plan import plan_road
 from planner.land.terrain import build_terrain
-from planner.land.corridors import Corridor
+from planner.land.corridors import Corridor, Corridors
 from planner.sites.crossings import plan_crossings
 
 ANGLES = np.linspace(0, 2 * np.pi, 12, endpoint=False)
@@ -35,7 +35,7 @@ def _bank_m(terrain, thing):
 
 def test_a_high_bank_has_a_bridge_and_a_low_one_a_culvert():
     terrain = _terrain()
-    things = plan_crossings(terrain, [])
+    things = plan_crossings(terrain, Corridors())
     assert {thing.name for thing in things} == {"bridge", "culvert"}
     for thing in things:
         assert terrain.road_m(*thing.point_m[:, None])[0] < -1.8  # the middle of the road
@@ -44,7 +44,7 @@ def test_a_high_bank_has_a_bridge_and_a_low_one_a_culvert():
 
 
 def test_crossings_are_40_m_apart():
-    points = np.array([thing.point_m for thing in plan_crossings(_terrain(), [])])
+    points = np.array([thing.point_m for thing in plan_crossings(_terrain(), Corridors())])
     apart = np.linalg.norm(points[:, None] - points, axis=2)
     assert apart[~np.eye(len(points), dtype=bool)].min() >= 40
 
@@ -52,7 +52,7 @@ def test_crossings_are_40_m_apart():
 def test_walls_stand_beside_the_road_whatever_its_width():
     for width_m in (3.8, 6.0):
         terrain = _terrain(width_m)
-        for thing in plan_crossings(terrain, []):
+        for thing in plan_crossings(terrain, Corridors()):
             shapes = assets.load("structures", thing.name)["shapes"]
             aside_m = {abs(shape["y_m"]) for shape in shapes}
             for side in (-1, 1):
@@ -63,14 +63,14 @@ def test_walls_stand_beside_the_road_whatever_its_width():
 
 def test_no_wall_stands_in_walkers_way():
     terrain = _terrain()
-    first = plan_crossings(terrain, [])[0]
+    first = plan_crossings(terrain, Corridors())[0]
     across = np.linspace(-6, 6, 25)[:, None] * heading_of(first.yaw_rad + 0.5 * np.pi)
-    kept = plan_crossings(terrain, [Corridor(first.point_m + across, 0.3)])
+    kept = plan_crossings(terrain, Corridors([Corridor(first.point_m + across, 0.3)]))
     assert min(np.linalg.norm(thing.point_m - first.point_m) for thing in kept) > 2
     along = np.linspace(-6, 6, 25)[:, None] * heading_of(first.yaw_rad)
-    kept = plan_crossings(terrain, [Corridor(first.point_m + along, 0.3)])
+    kept = plan_crossings(terrain, Corridors([Corridor(first.point_m + along, 0.3)]))
     assert any((thing.point_m == first.point_m).all() for thing in kept)
 
 
 def test_without_a_road_nothing_is_crossed():
-    assert not plan_crossings(_terrain().with_road(None), [])
+    assert not plan_crossings(_terrain().with_road(None), Corridors())

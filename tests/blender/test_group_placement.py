@@ -6,7 +6,7 @@ import pytest
 from scenes import tiny
 from planner.groups.collision_discs import cover, gather
 from planner.groups.herds import Room
-from planner.land.corridors import Corridor
+from planner.land.corridors import Corridor, Corridors
 from planner.groups.placement import about, afloat, at_shore, find_spots, in_water, on_land
 from planner.land.terrain import build_terrain
 
@@ -33,7 +33,7 @@ def _gaps_m(rooms, spots):
 
 def test_bodies_at_a_place_are_apart_and_near_it(terrain):
     rooms = [HIPPO] * 8
-    spots = find_spots(rooms, about([90, 80], rooms, 25.0), on_land(terrain, []), [], 3, "herd")
+    spots = find_spots(rooms, about([90, 80], rooms, 25.0), on_land(terrain, Corridors()), [], 3, "herd")
     assert len(spots) == 8
     assert min(_gaps_m(rooms, spots)) >= 0.5
     assert max(np.linalg.norm(spot.point_m - [90, 80]) for spot in spots) <= 25.0
@@ -41,12 +41,15 @@ def test_bodies_at_a_place_are_apart_and_near_it(terrain):
 
 def test_the_default_spread_fits_the_group(terrain):
     rooms = [HIPPO] * 30
-    assert len(find_spots(rooms, about([110, 110], rooms, None), on_land(terrain, []), [], 3, "herd")) == 30
+    assert (
+        len(find_spots(rooms, about([110, 110], rooms, None), on_land(terrain, Corridors()), [], 3, "herd"))
+        == 30
+    )
 
 
 def test_too_many_for_a_place_are_not_squeezed_in(terrain):
     rooms = [HIPPO] * 30
-    spots = find_spots(rooms, about([90, 80], rooms, 6.0), on_land(terrain, []), [], 3, "herd")
+    spots = find_spots(rooms, about([90, 80], rooms, 6.0), on_land(terrain, Corridors()), [], 3, "herd")
     assert 0 < len(spots) < 30
     assert min(_gaps_m(rooms, spots)) >= 0.5
 
@@ -55,7 +58,9 @@ def test_spots_are_clear_of_walkers_and_other_groups(terrain):
     rooms = [ZEBRA] * 12
     path = Corridor(np.column_stack([np.arange(60.0, 130.0, 0.8), np.full(88, 80.0)]), 3.0)
     there = gather([(cover(2.0, 2.0), np.array([[90.0, 90.0]]), np.array([[1.0, 0.0]]))])
-    for spot in find_spots(rooms, about([90, 80], rooms, 20.0), on_land(terrain, [path]), [there], 3, "herd"):
+    for spot in find_spots(
+        rooms, about([90, 80], rooms, 20.0), on_land(terrain, Corridors([path])), [there], 3, "herd"
+    ):
         assert abs(spot.point_m[1] - 80.0) > 3.0
         assert np.linalg.norm(spot.point_m - [90, 90]) > 2.5
 
@@ -63,7 +68,7 @@ def test_spots_are_clear_of_walkers_and_other_groups(terrain):
 def test_animals_at_the_shore_are_dry_and_face_the_water(terrain):
     water = terrain.waters[0]
     rooms = [ZEBRA] * 8
-    spots = find_spots(rooms, at_shore(water, 3, "herd"), on_land(terrain, []), [], 3, "herd")
+    spots = find_spots(rooms, at_shore(water, 3, "herd"), on_land(terrain, Corridors()), [], 3, "herd")
     assert len(spots) == 8
     for spot in spots:
         assert terrain.shore_m(*spot.point_m) > 0
@@ -82,7 +87,7 @@ def test_swimmers_have_water_under_them(terrain):
 
 
 def test_a_spot_is_a_path_that_leads_nowhere(terrain):
-    (spot,) = find_spots([ZEBRA], about([90, 80], [ZEBRA], 5.0), on_land(terrain, []), [], 3, "one")
+    (spot,) = find_spots([ZEBRA], about([90, 80], [ZEBRA], 5.0), on_land(terrain, Corridors()), [], 3, "one")
     point, heading = spot.at(np.array([0.0, 3.0, -7.0]))
     assert point.shape == heading.shape == (3, 2)
     assert (point == spot.point_m).all() and (heading == spot.heading).all()

@@ -10,7 +10,7 @@ from resolved import resolve
 from scenes import tiny
 from planner import assets
 from planner.geometry.neighbours import pairs_within
-from planner.land.corridors import Corridor
+from planner.land.corridors import Corridor, Corridors
 from planner.plants.placement import AREAS, Site, by_area, place_plants, slope_deg
 from planner.geometry.splines import Loop
 from planner.land.terrain import build_terrain
@@ -101,7 +101,9 @@ def test_plants_keep_apart(savanna, one, other):
 def test_none_stand_in_water_on_the_road_or_near_a_walker(name):
     data = assets.load("plants", name)
     per_ha = {"per_ha": 20 if name in ("baobab", "termite_mound") else 200}
-    plants = place_plants({name: per_ha}, Site(HILLY, road_m=_road_m, corridors=[CORRIDOR]), SEED)[name]
+    plants = place_plants({name: per_ha}, Site(HILLY, road_m=_road_m, corridors=Corridors([CORRIDOR])), SEED)[
+        name
+    ]
     x, y, z = plants.points_m.T
     assert len(x) > 50
     assert (HILLY.shore_m(x, y) > data["foot_m"]).all()
@@ -135,7 +137,9 @@ def test_slopes_are_those_of_the_ground():
 
 def test_a_path_takes_plants_away_and_moves_none():
     mix = {"hookthorn": {"per_ha": 100}, "shrub": {"per_ha": 300}}
-    everywhere, left = (place_plants(mix, Site(LEVEL, corridors=c), SEED) for c in ((), [CORRIDOR]))
+    everywhere, left = (
+        place_plants(mix, Site(LEVEL, corridors=Corridors(c)), SEED) for c in ((), [CORRIDOR])
+    )
     for name in mix:
         assert {tuple(p) for p in left[name].points_m} < {tuple(p) for p in everywhere[name].points_m}
 

@@ -12,7 +12,7 @@ from planner.faults import ConfigError
 from planner.geometry.rotations import heading_of
 from planner.land.terrain import build_terrain
 from planner.outlines import outline_of
-from planner.land.corridors import Corridor
+from planner.land.corridors import Corridor, Corridors
 from planner.sites.grounds import plan_furrows, plan_grounds
 from planner.sites.layout import lay_out, plantings_of
 from planner.sites.settlement import plan_settlements
@@ -33,7 +33,7 @@ def _site(kind, place=(60, 40), **more):
 
 
 @lru_cache(maxsize=None)
-def _things(kind, corridors=()):
+def _things(kind, corridors=Corridors()):
     return lay_out(_site(kind), _terrain(), corridors)
 
 
@@ -64,8 +64,8 @@ def test_a_kind_has_what_its_file_promises(kind):
 def test_nothing_stands_in_the_way_of_walkers():
     middle = np.array([[60.0, 40.0]])
     walk = Corridor(middle + np.linspace(-40, 40, 161)[:, None] * [[1.0, 0.0]], 1.0)
-    before = lay_out(_site("village"), _terrain(), [])
-    after = lay_out(_site("village"), _terrain(), [walk])
+    before = lay_out(_site("village"), _terrain(), Corridors())
+    after = lay_out(_site("village"), _terrain(), Corridors([walk]))
     for thing in after:
         clear_m = assets.standing(thing.name)["clearance_m"] + thing.foot_m + 1.0
         assert (
@@ -77,7 +77,7 @@ def test_nothing_stands_in_the_way_of_walkers():
 
 def test_a_layout_depends_on_seed_name_and_nothing_else():
     def places(site):
-        return np.array([thing.point_m for thing in lay_out(site, _terrain(), [])])
+        return np.array([thing.point_m for thing in lay_out(site, _terrain(), Corridors())])
 
     site = _site("camp", name="herders")
     assert np.array_equal(places(site), places(_site("camp", name="herders")))
@@ -86,12 +86,12 @@ def test_a_layout_depends_on_seed_name_and_nothing_else():
 
 
 def test_density_and_heading_are_those_of_the_config():
-    assert len(lay_out(_site("village", density=0), _terrain(), [])) == 0
-    few, many = (len(lay_out(_site("village", density=d), _terrain(), [])) for d in (0.5, 1.5))
+    assert len(lay_out(_site("village", density=0), _terrain(), Corridors())) == 0
+    few, many = (len(lay_out(_site("village", density=d), _terrain(), Corridors())) for d in (0.5, 1.5))
     assert many > 1.5 * few
     site = _site("post", heading_deg=30)
     assert site.heading_rad == pytest.approx(np.radians(60))
-    yaws = [t.yaw_rad for t in lay_out(site, _terrain(), []) if t.name == "house_metal"]
+    yaws = [t.yaw_rad for t in lay_out(site, _terrain(), Corridors()) if t.name == "house_metal"]
     off = (np.array(yaws) - site.heading_rad + np.pi / 4) % (np.pi / 2) - np.pi / 4
     assert np.abs(off).max() < 0.101
 
@@ -114,7 +114,7 @@ def test_fences_are_uneven_and_have_gaps():
         loop = {"radius_m": [12, 12], "step_m": 1, "gaps": gaps}
         rules = {"objects": [{"object": "stake_fence", "count": [1, 1], "loop": loop}]}
         site = replace(_site("village"), rules=rules)
-        return np.array([t.point_m for t in lay_out(site, _terrain(), [])])
+        return np.array([t.point_m for t in lay_out(site, _terrain(), Corridors())])
 
     whole, broken = segments(0.0), segments(0.3)
     assert 0.6 < len(broken) / len(whole) < 0.85

@@ -10,7 +10,7 @@ import numpy as np
 from .. import ids
 from ..faults import ConfigError
 from ..geometry.splines import Loop, Spot
-from ..land.corridors import Corridor
+from ..land.corridors import Corridor, Corridors
 from .actors import Actor
 from .behaviours import Draft, draft_members, member_names, spacing_of
 from .collision_discs import TIMES_S, Crowd, cover, gather
@@ -63,13 +63,14 @@ def plan_cast(groups: Sequence[dict], land: Land, seed: int) -> Cast:
         _Group(f"scene.groups[{k}]", entry, draft_members(entry, seed)) for k, entry in enumerate(groups)
     ]
     corridors = [_path_corridor(group, land) for group in drawn if group.is_walking]
+    walked = Corridors(corridors)
     crowds: dict[str, Crowd] = {}
     placed: dict[str, Actor] = {}
     for group in sorted(drawn, key=_turn):
         if group.is_walking:
             actors = _on_path(group, land, crowds, index, seed)
         else:
-            actors = _at_place(group, land, corridors, crowds, index, seed)
+            actors = _at_place(group, land, walked, crowds, index, seed)
         crowds[group.name] = _crowd(actors)
         placed |= {actor.name: actor for actor in actors}
     still = [
@@ -136,14 +137,14 @@ def _on_path(
 def _at_place(
     group: _Group,
     land: Land,
-    corridors: Sequence[Corridor],
+    walked: Corridors,
     crowds: Mapping[str, Crowd],
     index: Mapping[str, int],
     seed: int,
 ) -> list[Actor]:
     """The members at spots of the group's area."""
     rooms = [draft.room for draft in group.drafts]
-    draw, allowed = venue(group.where, group.entry, group.drafts, land, corridors, seed)
+    draw, allowed = venue(group.where, group.entry, group.drafts, land, walked, seed)
     standing = list(crowds.values())
     if "formation" in group.entry:
         found = _in_formation(group, fitting(rooms, allowed, standing), seed)

@@ -31,7 +31,7 @@ def choose_start(
         crowd = begun_at(start_m)
         if any(nearest_m(crowd, other, 2.0 * within_m, _SOON_S) > within_m for other in meets):
             continue
-        clear_s = _clear_until_s(crowd, others, longest_s)
+        clear_s = _clear_of_all_until_s(crowd, others, longest_s)
         if clear_s > longest_s:
             best_m, longest_s = start_m, clear_s
         if clear_s == HORIZON_S:
@@ -39,7 +39,7 @@ def choose_start(
     return best_m
 
 
-def _clear_until_s(crowd: Crowd, others: Sequence[Crowd], enough_s: float) -> float:
+def _clear_of_all_until_s(crowd: Crowd, others: Sequence[Crowd], enough_s: float) -> float:
     """Until when a crowd stays clear of all others, or of those up to the first that it meets by enough_s."""
     clear_s = HORIZON_S
     for other in others:

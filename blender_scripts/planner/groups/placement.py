@@ -8,7 +8,7 @@ import numpy as np
 
 from ..geometry.rotations import any_heading, left_of
 from ..geometry.splines import Line, Spot
-from ..land.corridors import Corridor, Corridors
+from ..land.corridors import Corridors
 from ..land.terrain import Terrain
 from ..land.waters import Water
 from ..noise import stream
@@ -120,9 +120,8 @@ def along(line: Line, aside_m: float) -> Draw:
     return draw
 
 
-def on_land(terrain: Terrain, corridors: Sequence[Corridor]) -> Allowed:
+def on_land(terrain: Terrain, walked: Corridors) -> Allowed:
     """Whether a spot is dry, within the scene, and off the paths of others."""
-    walked = Corridors(corridors)
 
     def allowed(at_m: np.ndarray) -> bool:
         return bool(

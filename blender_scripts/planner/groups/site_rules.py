@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ..faults import ConfigError, did_you_mean, listing
 from ..geometry.splines import Loop
-from ..land.corridors import Corridor
+from ..land.corridors import Corridors
 from ..land.terrain import Terrain
 from ..land.waters import Water
 from . import placement
@@ -27,15 +27,13 @@ class Land:
 
 
 def venue(
-    where: str, group: dict, drafts: Sequence[Draft], land: Land, corridors: Sequence[Corridor], seed: int
+    where: str, group: dict, drafts: Sequence[Draft], land: Land, walked: Corridors, seed: int
 ) -> tuple[placement.Draw, placement.Allowed]:
     """Functions that draw spots for a group's `place` and test them; `where` is the group's key in the config."""
     place, rooms = group["place"], [draft.room for draft in drafts]
     floats = behaves(group, "float")
     if not isinstance(place, str):
-        return placement.about(place, rooms, group.get("spread_m")), placement.on_land(
-            land.terrain, corridors
-        )
+        return placement.about(place, rooms, group.get("spread_m")), placement.on_land(land.terrain, walked)
     if place not in PLACES:
         raise ConfigError(
             f'{where}.place = "{place}"; expected [x, y] or one of {listing(PLACES)}{did_you_mean(place, PLACES)}'
@@ -46,12 +44,12 @@ def venue(
         )
         raise ConfigError(f'{where}.place = "{place}"; expected {rule}')
     if place == "road":
-        return _by_the_road(where, rooms, land, corridors)
+        return _by_the_road(where, rooms, land, walked)
     water = _water(where, place, land.terrain)
     if floats:
         depths_m = [draft.scale * draft.body.postures["float"].waterline_m for draft in drafts]
         return placement.in_water(water), placement.afloat(land.terrain, max(depths_m))
-    return placement.at_shore(water, seed, group["name"]), placement.on_land(land.terrain, corridors)
+    return placement.at_shore(water, seed, group["name"]), placement.on_land(land.terrain, walked)
 
 
 def _water(where: str, place: str, terrain: Terrain) -> Water:
@@ -62,7 +60,7 @@ def _water(where: str, place: str, terrain: Terrain) -> Water:
     return terrain.waters[number]
 
 
-def _by_the_road(where: str, rooms, land: Land, corridors: Sequence[Corridor]):
+def _by_the_road(where: str, rooms, land: Land, walked: Corridors):
     road = land.terrain.road
     if road is None:
         raise ConfigError(
@@ -70,4 +68,4 @@ def _by_the_road(where: str, rooms, land: Land, corridors: Sequence[Corridor]):
         )
     widest_m = max(room.half_width_m for room in rooms)
     aside_m = 0.5 * road.width_m + widest_m + _SIDE_GAP_M
-    return placement.along(road.lines[-1], aside_m), placement.on_land(land.terrain, corridors)
+    return placement.along(road.lines[-1], aside_m), placement.on_land(land.terrain, walked)

@@ -1,4 +1,4 @@
-"""Ground that is kept free: walkers' paths, and clearings about what stands there already."""
+"""Ground that is taken: walkers' paths, and the places of what stands still."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..geometry.neighbours import pairs_within
 
 @dataclass(frozen=True)
 class Corridor:
-    """A walked line, points_m (n, 2) at most a metre apart, and how far from it the walkers' bodies extend."""
+    """A line, points_m (n, 2) at most a metre apart, and how far to its sides the ground is taken."""
 
     points_m: np.ndarray
     half_width_m: float
@@ -21,17 +21,17 @@ class Corridor:
 class Corridors:
     """Several corridors, searched at once."""
 
-    def __init__(self, corridors: Sequence[Corridor]):
+    def __init__(self, corridors: Sequence[Corridor] = ()):
         self._points_m = np.concatenate([np.zeros((0, 2)), *(each.points_m for each in corridors)])
         counts = [len(each.points_m) for each in corridors]
         self._half_widths_m = np.repeat([float(each.half_width_m) for each in corridors], counts)
 
     def is_clear(self, points_m: np.ndarray, by_m: float) -> bool:
-        """Whether all of a few points (n, 2) are at least by_m away from walkers."""
+        """Whether all of a few points (n, 2) are at least by_m away from all corridors."""
         return not self._is_near(points_m[:, None], self._points_m, self._half_widths_m, by_m).any()
 
     def taken(self, points_m: np.ndarray, by_m: float) -> np.ndarray:
-        """Mask of the points (n, 2) that are less than by_m away from walkers."""
+        """Mask of the points (n, 2) that are less than by_m away from a corridor."""
         taken = np.zeros(len(points_m), bool)
         i, j = pairs_within(points_m, self._points_m, by_m + self._half_widths_m.max(initial=0.0))
         taken[i[self._is_near(points_m[i], self._points_m[j], self._half_widths_m[j], by_m)]] = True

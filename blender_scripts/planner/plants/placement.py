@@ -10,7 +10,7 @@ import numpy as np
 from .. import assets
 from ..geometry.neighbours import pairs_within
 from ..geometry.poisson import fullest_per_m2, poisson_points
-from ..land.corridors import Corridor, Corridors
+from ..land.corridors import Corridors
 from ..land.terrain import Terrain, slope_deg
 from ..noise import fractal_noise, lattice_uniform
 
@@ -54,7 +54,7 @@ class Site:
     terrain: Terrain
     shares: Callable[[np.ndarray, np.ndarray], np.ndarray] = _even_shares
     road_m: Callable[[np.ndarray, np.ndarray], np.ndarray] = _no_road
-    corridors: Sequence[Corridor] = ()
+    corridors: Corridors = Corridors()
 
 
 @dataclass(frozen=True)
@@ -159,11 +159,11 @@ def _clumping(seed: int, clump_m: float, most_per_m2: float, even_per_m2: np.nda
 
 
 def _is_free(points_m: np.ndarray, data: dict, site: Site) -> np.ndarray:
-    """Mask of points (n, 2) on dry ground, off the road and clear of all walkers."""
+    """Mask of points (n, 2) on dry ground, off the road and clear of corridors."""
     x_m, y_m = points_m.T
     free = site.terrain.shore_m(x_m, y_m) > _SHORE_M + data["foot_m"]
     free &= site.road_m(x_m, y_m) > data["foot_m"]
-    return free & ~Corridors(site.corridors).taken(points_m, data["clearance_m"])
+    return free & ~site.corridors.taken(points_m, data["clearance_m"])
 
 
 def _planting(

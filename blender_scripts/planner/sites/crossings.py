@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
 from .. import assets
 from ..geometry.rotations import heading_of
-from ..land.corridors import Corridor, Corridors
+from ..land.corridors import Corridors
 from ..land.roads import Road
 from ..land.terrain import Terrain
 from .layout import Standing
@@ -20,17 +20,17 @@ _WALL_STEP_M = 0.5
 _KINDS = (("bridge", 1.0), ("culvert", 0.4))
 
 
-def plan_crossings(terrain: Terrain, corridors: Sequence[Corridor]) -> list[Standing]:
+def plan_crossings(terrain: Terrain, corridors: Corridors) -> list[Standing]:
     """A pair of walls at each high bank of the road; of nearby banks, at the highest.
 
-    Where walkers' corridors meet a wall, there is none.
+    Where a corridor meets a wall, there is none.
     """
-    road, walked, found = terrain.road, Corridors(corridors), []
+    road, found = terrain.road, []
     if road is None:
         return found
     for _, thing in sorted(_candidates(terrain, road), key=lambda each: -each[0]):
         apart_m = [np.linalg.norm(thing.point_m - other.point_m) for other in found]
-        if min(apart_m, default=np.inf) >= _APART_M and _is_clear(thing, road.width_m, walked):
+        if min(apart_m, default=np.inf) >= _APART_M and _is_clear(thing, road.width_m, corridors):
             found.append(thing)
     return found
 
@@ -48,7 +48,7 @@ def _candidates(terrain: Terrain, road: Road) -> Iterator[tuple[float, Standing]
 
 
 def _is_clear(thing: Standing, width_m: float, corridors: Corridors) -> bool:
-    """Whether walls are clear of walkers."""
+    """Whether walls are clear of corridors."""
     clear_m = assets.standing(thing.name)["clearance_m"]
     along_m = np.arange(-thing.foot_m, thing.foot_m + _WALL_STEP_M, _WALL_STEP_M)[:, None]
     ahead, left = heading_of(thing.yaw_rad), heading_of(thing.yaw_rad + 0.5 * np.pi)

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import assets
 from ..geometry.rotations import any_heading, heading_of
-from ..land.corridors import Corridor, Corridors
+from ..land.corridors import Corridors
 from ..land.terrain import Terrain
 from ..noise import stream
 from ..plants.placement import Planting
@@ -40,7 +40,7 @@ class Standing:
 
 @dataclass
 class Layout:
-    """Objects placed so far in a settlement, and reserved ground: walkers' paths, water, the road."""
+    """Objects placed so far in a settlement, and ground that is taken: corridors, water, the road."""
 
     site: Settlement
     terrain: Terrain
@@ -53,7 +53,7 @@ class Layout:
         return apart and self.is_open(thing)
 
     def is_open(self, thing: Standing) -> bool:
-        """Whether the ground of an object is within the scene, dry, off the road and clear of walkers."""
+        """Whether the ground of an object is within the scene, dry, off the road and clear of corridors."""
         at_m, foot_m = thing.point_m[None], thing.foot_m
         x_m, y_m = at_m.T
         if np.abs(at_m).max() > 0.5 * self.terrain.size_m - foot_m:
@@ -72,9 +72,9 @@ class Layout:
             self.things.append(found)
 
 
-def lay_out(site: Settlement, terrain: Terrain, corridors: Sequence[Corridor]) -> list[Standing]:
+def lay_out(site: Settlement, terrain: Terrain, corridors: Corridors) -> list[Standing]:
     """All objects of a settlement, rule by rule in the order of its file."""
-    layout = Layout(site, terrain, Corridors(corridors))
+    layout = Layout(site, terrain, corridors)
     for number, rule in enumerate(site.rules["objects"]):
         kind = next((kind for kind in _RULES if kind in rule), "scatter")
         _RULES.get(kind, _scatter)(layout, rule, number)
