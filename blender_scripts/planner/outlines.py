@@ -15,8 +15,8 @@ _MOST = 0.9  # largest share of the ground that plants of one species hide, sinc
 def outline_of(world: World) -> dict:
     """`covers`: the share of each material seen from straight above, which add up to 1; `actors`: their materials.
 
-    Ground is sampled at the vertices of the terrain's grid, so that a share p of n vertices has a standard error below
-    sqrt(p / n). Crowns of different species are assumed to hide each other at random, the widest being the tallest.
+    Shares of the ground are those of `Terrain.samples`. Crowns of different species are assumed to hide each other at
+    random, the widest being the tallest.
     """
     shares = _ground_shares(world)
     dry = 1.0 - shares.get(WATER, 0.0)
@@ -41,7 +41,7 @@ def _ground_shares(world: World) -> dict[str, float]:
     wins.
     """
     terrain = world.terrain
-    x_m, y_m = (lines_m.ravel() for lines_m in terrain.grid())
+    x_m, y_m = (along_m.ravel() for along_m in terrain.samples())
     bare = np.ones(len(x_m), bool)
     shares = {}
     if terrain.waters:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 
 from . import assets, checks, fires, ids
 from .anatomy.skeleton import part_names
@@ -26,12 +25,13 @@ from .land.trails import Place
 from .land.trodden import lay_fine_covers
 from .plants.density import plan_density
 from .plants.halos import with_halos
-from .plants.placement import Planting, Site, place_plants, with_more
+from .plants.placement import Planting, Shares, Site, place_plants, with_more
 from .plants.plant_shapes import slots_of
+from .seen_ground import Seen, everywhere, seen_ground
 from .sites.crossings import plan_crossings
 from .sites.grounds import plan_furrows, plan_grounds
 from .sites.layout import lay_out, plantings_of
-from .sites.settlement import plan_settlements
+from .sites.settlement import Settlement, plan_settlements
 from .workers import Cores
 
 WATER = "water"
@@ -84,7 +84,6 @@ def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) 
     terrain = terrain.with_road(plan_road(scene["terrain"]["road"], terrain, seed))
     settlements = plan_settlements(scene.get("sites", []), terrain, seed)
     covers = plan_covers(terrain, scene["terrain"], seed, plan_grounds(settlements))
-    ground = cores.start(lambda: lay_ground(terrain, covers)) if with_ground else lambda: None
     loops = plan_loops(scene["paths"], terrain, seed)
     check_groups(scene["groups"], loops)
     checks.check_loops(scene, loops)
@@ -94,19 +93,18 @@ def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) 
     treads = plan_treads(scene["groups"], loops, cast.actors)
     places = [Place(site.name, site.middle_m, site.radius_m) for site in settlements]
     treads = replace(treads, strands=[*treads.strands, *plan_furrows(settlements, terrain)], places=places)
-    hearths = [fire.hearth for fire in burning]
-    lay_fine = partial(lay_fine_covers, terrain, covers, treads, scene["terrain"], hearths, seed)
-    fine = cores.start(lay_fine) if with_ground else lambda: None
     taken = [*cast.corridors, *(fire.clearing for fire in burning)]
-    corridors = Corridors(taken)
-    built = [thing for site in settlements for thing in lay_out(site, terrain, corridors)]
-    built += plan_crossings(terrain, corridors)
-    taken += [Corridor(thing.point_m[None], thing.foot_m) for thing in built]
-    site = Site(terrain, areas.shares, terrain.road_m, Corridors(taken))
-    plantings = cores.start(lambda: place_plants(scene["plants"], site, seed))
-    measure(cast.actors, cores)
+    plantings = cores.start(lambda: _plantings(scene, settlements, terrain, areas.shares, taken, seed))
     intrinsics = intrinsics_of(config["camera"])
-    standing = with_more(plantings(), plantings_of(built, terrain, seed))
+    pilot = Pilot(config, terrain, cast.actors, intrinsics)
+    if with_ground:
+        seen, hearths = _seen(config, terrain, pilot), [fire.hearth for fire in burning]
+        fine = cores.start(
+            lambda: lay_fine_covers(terrain, covers, treads, scene["terrain"], hearths, seed, seen)
+        )
+        ground = cores.start(lambda: lay_ground(terrain, covers, seen))
+    measure(cast.actors, cores)
+    standing = plantings()
     return World(
         config=config,
         intrinsics=intrinsics,
@@ -121,8 +119,39 @@ def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) 
         material_indices=ids.plan_material_indices(
             _materials(terrain, covers, standing, burning, cast.actors)
         ),
-        pilot=Pilot(config, terrain, cast.actors, intrinsics),
+        pilot=pilot,
         ground=replace(ground(), fine=with_halos(fine(), standing, terrain, seed)) if with_ground else None,
+    )
+
+
+def _plantings(
+    scene: dict,
+    settlements: Sequence[Settlement],
+    terrain: Terrain,
+    shares: Shares,
+    taken: Sequence[Corridor],
+    seed: int,
+) -> dict[str, Planting]:
+    """Plants, and what is built; both keep off the ground that is taken."""
+    corridors = Corridors(taken)
+    built = [thing for site in settlements for thing in lay_out(site, terrain, corridors)]
+    built += plan_crossings(terrain, corridors)
+    feet = [Corridor(thing.point_m[None], thing.foot_m) for thing in built]
+    site = Site(terrain, shares, terrain.road_m, Corridors([*taken, *feet]))
+    return with_more(place_plants(scene["plants"], site, seed), plantings_of(built, terrain, seed))
+
+
+def _seen(config: dict, terrain: Terrain, pilot: Pilot) -> Seen:
+    """The ground that clips show; all of it where a camera may be moved anywhere."""
+    if config["render"]["posed_actors"] == "all":
+        return everywhere
+    margin_px, usual = config["render"]["view_margin_px"], intrinsics_of(config["camera"])
+    return seen_ground(
+        terrain,
+        (
+            (widened(camera_of(entry, usual), margin_px), pilot.flight(entry))
+            for entry in (*config["clips"], *config["flights"])
+        ),
     )
 
 

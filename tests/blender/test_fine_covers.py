@@ -88,9 +88,9 @@ def test_no_grass_without_its_layer():
 def test_ash_covers_its_share_of_the_dry_ground(wild, fraction):
     terrain, layers, grid = wild
     kind, _ = lay_kinds(grid, layers)
-    ash = lay_ash(grid, terrain, fraction, kind, SEED)
+    ash = lay_ash(grid, terrain, layers, fraction, kind, SEED)
     assert not ash[kind != 0].any()
     dry = terrain.shore_m(*np.meshgrid(grid.middles_m, grid.middles_m)) > 0
     wanted = min(fraction, np.mean(kind[dry] == 0))  # nothing else can burn
-    # The threshold is set on a sample of one cell in sixteen; the rest differs by the standard error of its patches.
+    # The threshold is set on the lattice, one cell in sixteen; the rest differs by the standard error of its patches.
     assert ash[dry].mean() / 255 == pytest.approx(wanted, rel=0.03)

@@ -65,6 +65,7 @@ def test_mounds_stand_on_bare_ground():
 
 
 def _wild_place(config):
+    config["render"]["posed_actors"] = "all"  # so that all of the ground is fine
     config["scene"].update(plants={}, paths={}, groups=[])
     config["scene"]["terrain"].update(craggy_fraction=0.15, road={"width_m": 3.8})
     config["clips"].pop()

@@ -163,7 +163,7 @@ def _lit(veldt: Veldt, out: str) -> tuple[np.ndarray, np.ndarray]:
     return _array(veldt, "sky_view", out), _array(veldt, "sunlit", out)[0]
 
 
-def test_light_is_traced_where_a_clip_can_see(veldt):
+def test_light_is_traced_and_ground_is_detailed_where_a_clip_can_see(veldt):
     _seen_from_above(veldt)
     _plan(veldt, "seen")
     _plan(veldt, "whole", "--set", "render.posed_actors=all", "--set", "render.engine=embree")
@@ -184,8 +184,11 @@ def test_light_is_traced_where_a_clip_can_see(veldt):
         row, column = int(y_m + 60), int(x_m + 60)
         around = np.s_[row - 5 : row + 6, column - 5 : column + 6]
         assert np.array_equal(sun[around], whole_sun[around])
-    for name in ("height_m", "crown_top_m", "moisture", "kind", "grass"):
-        assert np.array_equal(_array(veldt, name, "seen"), _array(veldt, name, "whole"))
+    for name in ("height_m", "crown_top_m", "moisture"):
+        assert np.array_equal(*(_array(veldt, name, out)[~is_open] for out in ("seen", "whole"))), name
+    fine = np.repeat(np.repeat(~is_open, 2, axis=0), 2, axis=1)
+    for name in ("kind", "grass"):
+        assert np.array_equal(*(_array(veldt, name, out)[fine] for out in ("seen", "whole"))), name
 
 
 def test_other_flights_make_other_maps(veldt):

@@ -83,8 +83,8 @@ def _rockiness(terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray:
 
 
 def _plan_grass(terrain: Terrain, settings: dict, seed: int) -> Value | None:
-    """Patches that cover grass_fraction of the grid's dry ground, except where the margin of the water is bare."""
-    x_m, y_m = terrain.grid()
+    """Patches that cover grass_fraction of the dry ground, except where the margin of the water is bare."""
+    x_m, y_m = terrain.samples()
     patch_m = settings["grass_patch_m"]
     shore_m = terrain.shore_m(x_m, y_m, 2.0 * _BARE_MARGIN_M)
     can_grow = shore_m > _BARE_MARGIN_M

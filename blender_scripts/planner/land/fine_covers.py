@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -61,26 +62,32 @@ def lay_grass(grid: FineGrid, layers: Sequence[Layer], kinds: np.ndarray) -> np.
     values = [layer.value for layer in layers if layer.material == GRASS]
     if not values:
         return np.zeros_like(kinds)
-    value = np.maximum.reduce([value(*grid.lattice()) for value in values])
+    value = np.maximum.reduce([grid.sampled(value) for value in values])
     share = np.interp(value, _GRASS_AT, _GRASS_SHARES)
     return refined_bytes(grid, blurred(share), kinds == 0)
 
 
-def lay_ash(grid: FineGrid, terrain: Terrain, fraction: float, kinds: np.ndarray, seed: int) -> np.ndarray:
+def lay_ash(
+    grid: FineGrid,
+    terrain: Terrain,
+    layers: Sequence[Layer],
+    fraction: float,
+    kinds: np.ndarray,
+    seed: int,
+) -> np.ndarray:
     """Shares under ash: patches with ragged borders on a fraction of the dry ground, off other covers."""
-    low, _ = grid.below
-    first = np.searchsorted(
-        low, np.arange(len(grid.lattice_axis_m) - 1)
-    )  # a cell for each square of the lattice
-    x_m, y_m = np.meshgrid(grid.middles_m[first], grid.middles_m[first])
+    x_m, y_m = terrain.samples()
     dry = terrain.shore_m(x_m, y_m, 0.0) > 0
-    can_burn = dry & (kinds[np.ix_(first, first)] == 0)
+    can_burn = dry.copy()
+    for layer in layers:
+        if layer.material != GRASS:
+            can_burn &= layer.value(x_m, y_m) <= 0
     if fraction <= 0 or not can_burn.any():
         return np.zeros_like(kinds)
     wanted = fraction * np.count_nonzero(dry) / np.count_nonzero(can_burn)
     values = _wide(seed, x_m[can_burn], y_m[can_burn])
     threshold = _threshold(values + _fine(seed, x_m[can_burn], y_m[can_burn]), min(wanted, 1.0))
-    wide = _wide(seed, *grid.lattice()) - threshold
+    wide = grid.sampled(partial(_wide, seed)) - threshold
     ash = np.zeros_like(kinds)
     for rows in grid.blocks():
         ash[rows] = as_bytes(_burnt(seed, grid, wide, rows))
@@ -98,9 +105,9 @@ def refined_bytes(grid: FineGrid, share: np.ndarray, where: np.ndarray) -> np.nd
 
 def _lay(kinds: np.ndarray, border: np.ndarray, number: int, grid: FineGrid, value: Value) -> None:
     """Set the cells in which a layer's value is positive; far from its borders, its sign on the lattice decides."""
-    at_lattice = value(*grid.lattice())
+    at_lattice = grid.sampled(value)
     low, _ = grid.below
-    inside, unsure = at_lattice > 0, _near_border(at_lattice)
+    inside, unsure = at_lattice > 0, _near_border(at_lattice) & grid.seen_squares
     around = np.full((grid.cells + 2, grid.cells + 2), np.nan, np.float32)  # with a rim
     fine = around[1:-1, 1:-1]
     for rows in grid.blocks():
@@ -180,6 +187,8 @@ def _burnt(seed: int, grid: FineGrid, wide: np.ndarray, rows: slice) -> np.ndarr
     """Shares of some rows; the finest octaves are added where they matter."""
     above = grid.refined(wide, rows)
     most = _BURNT_GAIN**_WIDE_OCTAVES * sum(_BURNT_GAIN**k for k in range(_FINE_OCTAVES))
-    row, column = np.nonzero(np.abs(above) < most + _BURNT_BORDER)
+    low, _ = grid.below
+    is_seen = grid.seen_squares[low[rows]][:, low]
+    row, column = np.nonzero((np.abs(above) < most + _BURNT_BORDER) & is_seen)
     above[row, column] += _fine(seed, grid.middles_m[column], grid.middles_m[rows][row])
     return _ash_share(above)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+
+from ..seen_ground import Seen, everywhere, sampled
 
 FINE_M = 0.5  # largest side of a cell, unless there would be too many
 MOST_CELLS = 4096  # along a side
@@ -18,10 +20,12 @@ _ROWS = 128  # at once, whose values stay in the cache
 class FineGrid:
     """A square of size_m in cells x cells squares, [row of y, column of x], from south and west.
 
-    Its lattice is a coarser grid of lines x lines points, the first and the last on the border.
+    Its lattice is a coarser grid of lines x lines points, the first and the last on the border. Ground that is not seen
+    needs no detail.
     """
 
     size_m: float
+    seen: Seen = everywhere
 
     @property
     def cells(self) -> int:
@@ -44,9 +48,16 @@ class FineGrid:
         lines = int(np.ceil(self.size_m / _LATTICE_M)) + 1
         return (np.arange(lines) / (lines - 1) - 0.5) * self.size_m
 
-    def lattice(self) -> tuple[np.ndarray, np.ndarray]:
-        """x_m and y_m (lines, lines) of the lattice's points."""
-        return tuple(np.meshgrid(self.lattice_axis_m, self.lattice_axis_m))
+    def sampled(self, value: Callable[[np.ndarray, np.ndarray], np.ndarray]) -> np.ndarray:
+        """Values (lines, lines) of a function of (x_m, y_m) at the lattice's points, exact where they are seen."""
+        return sampled(value, self.lattice_axis_m, self.seen)
+
+    @cached_property
+    def seen_squares(self) -> np.ndarray:
+        """Mask (lines - 1, lines - 1) of the lattice's squares that are seen."""
+        middles_m = 0.5 * (self.lattice_axis_m[:-1] + self.lattice_axis_m[1:])
+        x_m, y_m = np.meshgrid(middles_m, middles_m)
+        return self.seen(x_m.ravel(), y_m.ravel()).reshape(x_m.shape)
 
     def blocks(self) -> Iterator[slice]:
         """All rows, some at a time."""

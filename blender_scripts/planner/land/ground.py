@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry.triangles import edges_of, split_edges
+from ..seen_ground import Seen, everywhere, sampled
 from .covers import Layer
 from .roads import SHOULDER_M
 from .terrain import Terrain
@@ -29,16 +30,18 @@ class GroundMesh:
     materials: tuple[str, ...]
 
 
-def build_ground(terrain: Terrain, layers: Sequence[Layer], bare: str) -> GroundMesh:
+def build_ground(terrain: Terrain, layers: Sequence[Layer], bare: str, seen: Seen = everywhere) -> GroundMesh:
     """The terrain's mesh, cut along the borders of layers; ground outside all layers is `bare`.
 
     Its shape is exactly that of `Terrain.height_m`, except on the road, where flat triangles approximate the tracks.
+    Triangles without a corner that is seen stay as large as the terrain's cells: borders are then straight within a
+    cell, and the road has no tracks.
     """
     points, triangles = _grid_mesh(terrain)
-    points, triangles = _with_road(terrain, points, triangles)
+    points, triangles = _with_road(terrain, points, triangles, seen)
     cover = np.zeros(len(triangles), np.int8)
     for number, layer in enumerate(layers, start=1):
-        points, triangles, cover = _laid(terrain, layer, number, points, triangles, cover)
+        points, triangles, cover = _laid(terrain, layer, number, points, triangles, cover, seen)
     materials = (bare, *(layer.material for layer in layers))
     return GroundMesh(points, triangles, cover, materials)
 
@@ -55,13 +58,17 @@ def _grid_mesh(terrain: Terrain) -> tuple[np.ndarray, np.ndarray]:
     return points, np.concatenate([lower.reshape(-1, 3), upper.reshape(-1, 3)])
 
 
-def _with_road(terrain: Terrain, points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The mesh with triangles on and beside the road halved until they are small enough."""
+def _with_road(
+    terrain: Terrain, points: np.ndarray, triangles: np.ndarray, seen: Seen
+) -> tuple[np.ndarray, np.ndarray]:
+    """The mesh with triangles on and beside the road halved until they are small enough, where they are seen."""
     if terrain.road is None:
         return points, triangles
     off_m = terrain.road_m(points[:, 0], points[:, 1])
+    is_seen = seen(points[:, 0], points[:, 1])
     while True:
         chosen = _coarse_on_road(points, triangles, off_m)
+        chosen = chosen[_any_corner(is_seen, triangles[chosen])]
         if len(chosen) == 0:
             return points, triangles
         edges = edges_of(triangles[chosen])
@@ -69,6 +76,7 @@ def _with_road(terrain: Terrain, points: np.ndarray, triangles: np.ndarray) -> t
         triangles, _ = split_edges(triangles, edges, len(points))
         points = np.concatenate([points, middles])
         off_m = np.concatenate([off_m, terrain.road_m(middles[:, 0], middles[:, 1])])
+        is_seen = np.concatenate([is_seen, seen(middles[:, 0], middles[:, 1])])
 
 
 def _coarse_on_road(points: np.ndarray, triangles: np.ndarray, off_m: np.ndarray) -> np.ndarray:
@@ -83,31 +91,55 @@ def _coarse_on_road(points: np.ndarray, triangles: np.ndarray, off_m: np.ndarray
 
 
 def _laid(
-    terrain: Terrain, layer: Layer, number: int, points: np.ndarray, triangles: np.ndarray, cover: np.ndarray
+    terrain: Terrain,
+    layer: Layer,
+    number: int,
+    points: np.ndarray,
+    triangles: np.ndarray,
+    cover: np.ndarray,
+    seen: Seen,
 ):
     """Points, triangles and covers after adding a layer, as `number`, on bare ground."""
-    values = layer.value(points[:, 0], points[:, 1])
+    values, is_seen = _values(terrain, layer, points, seen), seen(points[:, 0], points[:, 1])
     for _ in range(max(0, round(np.log2(terrain.cell_m / _BORDER_EDGE_M)))):
-        cut = triangles[_is_cut(values, triangles, cover)]
+        cut = triangles[_is_cut(values, triangles, cover) & _any_corner(is_seen, triangles)]
         edges = edges_of(cut[_longest_m(points, cut) > _COARSE * _BORDER_EDGE_M])
         middles = _on_ground(terrain, points[edges].mean(axis=1))
         triangles, parent = split_edges(triangles, edges, len(points))
         points, cover = np.concatenate([points, middles]), cover[parent]
         values = np.concatenate([values, layer.value(middles[:, 0], middles[:, 1])])
+        is_seen = np.concatenate([is_seen, seen(middles[:, 0], middles[:, 1])])
     edges = edges_of(triangles[_is_cut(values, triangles, cover)])
     edges = edges[(values[edges[:, 0]] > 0) != (values[edges[:, 1]] > 0)]
     triangles, parent = split_edges(triangles, edges, len(points))
     points = np.concatenate([points, _crossings(points, values, edges)])
     values, cover = np.concatenate([values, np.zeros(len(edges))]), cover[parent]
     # No bare triangle has corners on both sides any more, so its highest value decides.
-    a, b, c = _at_corners(values > 0, triangles)
-    return points, triangles, np.where((cover == 0) & (a | b | c), np.int8(number), cover)
+    return (
+        points,
+        triangles,
+        np.where((cover == 0) & _any_corner(values > 0, triangles), np.int8(number), cover),
+    )
+
+
+def _values(terrain: Terrain, layer: Layer, points: np.ndarray, seen: Seen) -> np.ndarray:
+    """Values (n,) of a layer at points, of which those of the terrain's grid come first."""
+    axis_m = terrain.grid()[0][0]
+    on_grid = sampled(layer.value, axis_m, seen).ravel()
+    others = points[len(on_grid) :]
+    return np.concatenate([on_grid, layer.value(others[:, 0], others[:, 1])])
 
 
 def _is_cut(values: np.ndarray, triangles: np.ndarray, cover: np.ndarray) -> np.ndarray:
     """Which bare triangles a border runs through."""
     a, b, c = _at_corners(values > 0, triangles)
     return (cover == 0) & ((a != b) | (b != c))
+
+
+def _any_corner(mask: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Which triangles (m,) have a corner of a mask (n,)."""
+    a, b, c = _at_corners(mask, triangles)
+    return a | b | c
 
 
 def _longest_m(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:

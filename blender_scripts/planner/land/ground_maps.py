@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..seen_ground import Seen, everywhere
 from .covers import SOIL, Layer
 from .fine_covers import FineCovers
 from .ground import GroundMesh, build_ground
@@ -30,10 +31,10 @@ class Ground:
     fine: FineCovers | None = None
 
 
-def lay_ground(terrain: Terrain, layers: Sequence[Layer]) -> Ground:
-    """The ground of a terrain with its covers."""
+def lay_ground(terrain: Terrain, layers: Sequence[Layer], seen: Seen = everywhere) -> Ground:
+    """The ground of a terrain with its covers, fine where it is seen."""
     x_m, y_m = terrain.grid()
-    mesh = build_ground(terrain, layers, SOIL)
+    mesh = build_ground(terrain, layers, SOIL, seen)
     return Ground(
         mesh=mesh,
         height_m=terrain.height_m(x_m, y_m).astype("<f4"),

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from ..geometry.easing import smooth
 from ..noise import fractal_noise
+from ..seen_ground import Seen, everywhere
 from .fine_covers import FineCovers, lay_ash, lay_grass, lay_kinds, refined_bytes
 from .covers import Layer
 from .fine_grid import FineGrid
@@ -46,11 +48,14 @@ def lay_fine_covers(
     settings: dict,
     hearths: Sequence[Halo],
     seed: int,
+    seen: Seen = everywhere,
 ) -> FineCovers:
-    """The fine maps of a terrain of `scene.terrain` with its covers, with ash about hearths too."""
-    grid = FineGrid(terrain.size_m)
+    """The fine maps of a terrain of `scene.terrain` with its covers, with ash about hearths too; in detail where they
+    are seen.
+    """
+    grid = FineGrid(terrain.size_m, seen)
     kind, border = lay_kinds(grid, layers)
-    ash = lay_ash(grid, terrain, settings["burnt_fraction"], kind, seed)
+    ash = lay_ash(grid, terrain, layers, settings["burnt_fraction"], kind, seed)
     lay_halos(ash, grid, hearths, seed)
     ash[kind != 0] = 0
     trodden = np.maximum(
@@ -65,7 +70,8 @@ def lay_fine_covers(
 
 def lay_trodden(grid: FineGrid, terrain: Terrain, treads: Treads, seed: int) -> np.ndarray:
     """Shares of bare, packed ground."""
-    trodden = _about_water(grid, terrain, seed)
+    share = grid.sampled(partial(_about_water, terrain, seed))
+    trodden = refined_bytes(grid, share, np.ones((grid.cells, grid.cells), bool))
     lay_halos(trodden, grid, treads.halos, seed)
     ways = plan_trails(terrain, treads.sources_m, treads.places, seed)
     lay_strands(trodden, grid, [*treads.strands, *ways], seed)
@@ -78,12 +84,12 @@ def lay_pans(grid: FineGrid, terrain: Terrain, fraction: float, kinds: np.ndarra
     """Shares of even, packed ground in pans of several sizes, with soft borders, on a fraction of the dry ground, off
     other covers.
     """
-    x_m, y_m = grid.lattice()
+    x_m, y_m = terrain.samples()
     dry = terrain.shore_m(x_m, y_m, 0.0) > 0
     if fraction <= 0 or not dry.any():
         return np.zeros_like(kinds)
-    pans = fractal_noise(seed, "pans", x_m, y_m, 4.0 * _PAN_M, octaves=5, gain=0.6)
-    above = pans - np.quantile(pans[dry], 1.0 - min(fraction, 1.0))
+    pans = partial(fractal_noise, seed, "pans", wavelength_m=4.0 * _PAN_M, octaves=5, gain=0.6)
+    above = grid.sampled(pans) - np.quantile(pans(x_m[dry], y_m[dry]), 1.0 - min(fraction, 1.0))
     return refined_bytes(grid, _PAN_SHARE * smooth(0.5 + 0.5 * above / _PAN_BORDER), kinds == 0)
 
 
@@ -96,9 +102,8 @@ def wheel_tracks(road: Road) -> list[Strand]:
     ]
 
 
-def _about_water(grid: FineGrid, terrain: Terrain, seed: int) -> np.ndarray:
+def _about_water(terrain: Terrain, seed: int, x_m: np.ndarray, y_m: np.ndarray) -> np.ndarray:
     """Shares of trampled ground that rise towards the shore of each water, unevenly."""
-    x_m, y_m = grid.lattice()
     share = np.zeros(x_m.shape)
     for water in terrain.waters:
         reach_m = max(_SHORE_LEAST_M, _SHORE_REACH * water.basin.radius_m)
@@ -109,4 +114,4 @@ def _about_water(grid: FineGrid, terrain: Terrain, seed: int) -> np.ndarray:
         out = np.clip(shore_m[near] / reach_m * (1.0 + _SHORE_RAGGED * wide), 0.0, 1.0)
         patchy = np.clip(1.0 + 0.8 * fractal_noise(seed, "shore/patches", *at_m, 9.0, octaves=2), 0.0, 1.2)
         share[near] = np.maximum(share[near], _SHORE_SHARE * (1.0 - out) ** 2 * patchy)
-    return refined_bytes(grid, share, np.ones((grid.cells, grid.cells), bool))
+    return share

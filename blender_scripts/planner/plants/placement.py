@@ -34,6 +34,10 @@ class Planting:
     variant: np.ndarray
 
 
+# Shares (n, 3) of open, mid and dense ground at positions (x_m, y_m).
+Shares = Callable[[np.ndarray, np.ndarray], np.ndarray]
+
+
 def _even_shares(x_m: np.ndarray, _) -> np.ndarray:
     """Shares of a scene that is a third of each area everywhere."""
     return np.full((len(x_m), AREAS), 1.0 / AREAS)
@@ -52,7 +56,7 @@ class Site:
     """
 
     terrain: Terrain
-    shares: Callable[[np.ndarray, np.ndarray], np.ndarray] = _even_shares
+    shares: Shares = _even_shares
     road_m: Callable[[np.ndarray, np.ndarray], np.ndarray] = _no_road
     corridors: Corridors = Corridors()
 
