@@ -17,7 +17,7 @@ _HEIGHTS_M = 4.0  # apart, from which the range of heights in a square is taken
 _APART_S = 0.2  # moments of a flight that are looked at
 # Beyond the picture: what comes into it between two of these moments, and into that of a wide lens; estimate.
 _MARGIN_M = 24.0
-_COARSE = 4
+_COARSE = 4  # lines of a grid, of which one is evaluated where nothing is seen
 _MOMENTS_AT_ONCE = 64  # so that arrays take a few megabytes for any clip
 
 # Mask (n,) of positions (x_m, y_m).

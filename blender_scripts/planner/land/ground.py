@@ -115,11 +115,8 @@ def _laid(
     points = np.concatenate([points, _crossings(points, values, edges)])
     values, cover = np.concatenate([values, np.zeros(len(edges))]), cover[parent]
     # No bare triangle has corners on both sides any more, so its highest value decides.
-    return (
-        points,
-        triangles,
-        np.where((cover == 0) & _any_corner(values > 0, triangles), np.int8(number), cover),
-    )
+    is_laid = (cover == 0) & _any_corner(values > 0, triangles)
+    return points, triangles, np.where(is_laid, np.int8(number), cover)
 
 
 def _values(terrain: Terrain, layer: Layer, points: np.ndarray, seen: Seen) -> np.ndarray:
