@@ -13,7 +13,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-/// The command line by CLI11, whose templates are compiled here alone: they would take five seconds in each command.
+/// The command line by CLI11, which no command includes: its templates would take five seconds in each.
 namespace veldt {
 
 /// Options of every command.

@@ -54,7 +54,7 @@ class FineGrid:
 
     @cached_property
     def seen_squares(self) -> np.ndarray:
-        """Mask (lines - 1, lines - 1) of the lattice's squares that are seen."""
+        """Mask (lines - 1, lines - 1) of the lattice's squares whose middles are seen."""
         middles_m = 0.5 * (self.lattice_axis_m[:-1] + self.lattice_axis_m[1:])
         x_m, y_m = np.meshgrid(middles_m, middles_m)
         return self.seen(x_m.ravel(), y_m.ravel()).reshape(x_m.shape)

@@ -121,8 +121,7 @@ def _laid(
 
 def _values(terrain: Terrain, layer: Layer, points: np.ndarray, seen: Seen) -> np.ndarray:
     """Values (n,) of a layer at points, of which those of the terrain's grid come first."""
-    axis_m = terrain.grid()[0][0]
-    on_grid = sampled(layer.value, axis_m, seen).ravel()
+    on_grid = sampled(layer.value, points[: len(terrain.heights_m), 0], seen).ravel()
     others = points[len(on_grid) :]
     return np.concatenate([on_grid, layer.value(others[:, 0], others[:, 1])])
 
